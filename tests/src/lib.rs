@@ -1,0 +1,17 @@
+//! Whole-program tests: scenarios with their expectations, broken input, the reference data, and
+//! the rules of the house that the compiler cannot see.
+
+#[cfg(test)]
+mod broken;
+#[cfg(test)]
+mod by_hand;
+#[cfg(test)]
+mod invariance;
+#[cfg(test)]
+mod reference;
+#[cfg(test)]
+mod scenarios;
+#[cfg(test)]
+mod tidy;
+#[cfg(test)]
+mod tools;

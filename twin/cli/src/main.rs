@@ -1,0 +1,19 @@
+//! The program `twin`: [`cli::run_on`] with the terminal's streams.
+
+use std::io::{self, IsTerminal as _};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let (stdout, stderr) = (io::stdout(), io::stderr());
+    let colour_asked = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+        && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+    let mut screen = cli::Screen {
+        out_is_terminal: stdout.is_terminal(),
+        err_is_terminal: stderr.is_terminal(),
+        colour_asked,
+        out: &mut stdout.lock(),
+        // not locked: the progress bar writes there too
+        err: &mut io::stderr(),
+    };
+    ExitCode::from(cli::run_on(std::env::args_os(), &mut screen))
+}

@@ -1,0 +1,264 @@
+//! From a preflight to a report.
+
+use sim::cell::Job;
+use sim::finding as found;
+use sim::interval::Interval;
+use sim::kinematics;
+use sim::motion::{Printing, StrandMotion};
+use sim::pose::Vector;
+use sim::preflight::{Preflight, StrandResult};
+use sim::{growth, process};
+
+use crate::parts::{
+    Assumption, Finding, Phase, Provenance, Report, Scores, Severity, Site, Timing, Totals, Verdict,
+};
+use crate::results::{
+    self, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand,
+};
+
+impl Report {
+    /// Everything a preflight found; `source` is the text of the job, for line numbers.
+    ///
+    /// Numbers that are not finite become null: JSON has no others.
+    pub fn new(
+        preflight: &Preflight,
+        source: &slam::Source,
+        provenance: Provenance,
+        timing: Timing,
+    ) -> Self {
+        let fill = Fill { preflight, job: preflight.job(), source };
+        let scores = preflight.scores();
+        let family = |family| scores.family(family).and_then(number);
+        Self {
+            schema: crate::SCHEMA.to_owned(),
+            name: fill.job.name.clone(),
+            verdict: match preflight.verdict() {
+                found::Verdict::Feasible => Verdict::Feasible,
+                found::Verdict::Infeasible => Verdict::Infeasible,
+            },
+            score: scores.total().and_then(number),
+            scores: Scores {
+                reach: family(found::Family::Reach),
+                clearance: family(found::Family::Clearance),
+                process: family(found::Family::Process),
+                structure: family(found::Family::Structure),
+                program: family(found::Family::Program),
+            },
+            findings: preflight.findings().iter().map(|each| fill.finding(each)).collect(),
+            strands: fill.strands(),
+            stages: preflight.growth.stages.iter().map(|each| fill.stage(each)).collect(),
+            landings: preflight.growth.landings.iter().map(|each| fill.landing(each)).collect(),
+            motion: fill.motion(),
+            loads: preflight.growth.loads.iter().map(load).collect(),
+            totals: totals(&preflight.totals),
+            assumptions: preflight.assumptions.iter().map(assumption).collect(),
+            provenance,
+            timing: finite_times(timing),
+        }
+    }
+}
+
+struct Fill<'a> {
+    preflight: &'a Preflight,
+    job: &'a Job,
+    source: &'a slam::Source,
+}
+
+impl Fill<'_> {
+    fn id(&self, strand: usize) -> String {
+        self.job.strands[strand].id.clone()
+    }
+
+    fn line(&self, strand: usize) -> usize {
+        self.source.line_column(self.job.strands[strand].span.start).0
+    }
+
+    fn finding(&self, finding: &found::Finding) -> Finding {
+        Finding {
+            code: finding.code.as_str().to_owned(),
+            severity: match finding.severity {
+                found::Severity::Error => Severity::Error,
+                found::Severity::Warning => Severity::Warning,
+            },
+            title: finding.code.title().to_owned(),
+            message: finding.message.clone(),
+            hint: finding.hint.clone(),
+            site: self.site(&finding.site),
+            line: finding.site.strand.map(|strand| self.line(strand)),
+            time_s: finding.time_s.and_then(number),
+            measured: number(finding.measured.nominal),
+            low: number(finding.measured.low),
+            high: number(finding.measured.high),
+            limit: number(finding.limit),
+            unit: finding.unit.to_owned(),
+            count: finding.count,
+        }
+    }
+
+    fn site(&self, site: &found::Site) -> Site {
+        Site {
+            strand: site.strand.map(|strand| self.id(strand)),
+            at_m: site.at_m.and_then(number),
+            stage: site.stage,
+            node: site.node,
+            member: site.member,
+            phase: site.phase.map(phase),
+            bodies: site.bodies.clone(),
+        }
+    }
+
+    fn strands(&self) -> Vec<Strand> {
+        let printings = &self.preflight.motion.printings;
+        printings
+            .iter()
+            .zip(&self.preflight.strands)
+            .map(|(printing, result)| self.strand(printing, result))
+            .collect()
+    }
+
+    fn strand(&self, printing: &Printing, result: &StrandResult) -> Strand {
+        let StrandResult { strand, input, outcome, .. } = result;
+        Strand {
+            id: self.id(*strand),
+            line: Some(self.line(*strand)),
+            start_s: number(printing.start_s),
+            end_s: number(printing.end_s),
+            length_m: number(input.length_m),
+            speed_m_s: number(input.speed_m_s),
+            flow_m3_s: number(input.flow_m3_s),
+            ends: match input.ends {
+                process::Ends::BothHeld => Ends::BothHeld,
+                process::Ends::StartHeld => Ends::StartHeld,
+                process::Ends::Resting => Ends::Resting,
+            },
+            span_m: number(input.span_m),
+            bead_diameter_m: range(outcome.bead_diameter_m),
+            draw_ratio: range(outcome.draw_ratio),
+            set_time_s: range(outcome.set_time_s),
+            set_distance_m: range(outcome.set_distance_m),
+            sag_nozzle_m: range(outcome.sag_nozzle_m),
+            sag_linear: outcome.sag_linear,
+            sag_slack_m: range(outcome.sag_slack_m),
+            sag_set_m: range(outcome.sag_set_m),
+            end_miss_m: range(outcome.end_miss_m),
+            uncured_core_m: outcome.uncured_core_m.map(range),
+            area_fraction: range(outcome.area_fraction),
+            stiffness_fraction: range(outcome.stiffness_fraction),
+            free_strain: range(outcome.free_strain),
+            laws: outcome.laws.iter().map(|&law| law.to_owned()).collect(),
+            motion: self.preflight.strand_motion.get(*strand).copied().flatten().map(strand_motion),
+        }
+    }
+
+    fn stage(&self, stage: &growth::StageResult) -> Stage {
+        Stage {
+            printed: stage.printed,
+            released: stage.released.map(|form| self.job.forms[form].id.clone()),
+            one_shot_m: stage.one_shot_m.and_then(number),
+            staged_m: stage.staged_m.and_then(number),
+            node: stage.node,
+            utilisation: stage.utilisation.and_then(number),
+            residual: number(stage.residual),
+        }
+    }
+
+    fn landing(&self, landing: &growth::Landing) -> Landing {
+        Landing {
+            strand: self.id(landing.strand),
+            at_end: landing.at_end,
+            node: landing.node,
+            frame_m: vector(&landing.frame_m),
+            shrinkage_m: vector(&landing.shrinkage_m),
+            push_m: vector(&landing.push_m),
+            push_length_m: range(landing.push_length_m),
+            sum_m: number(landing.sum_m),
+            accuracy_m: number(landing.accuracy_m),
+        }
+    }
+
+    fn motion(&self) -> Motion {
+        let nearest = self.preflight.nearest.as_ref();
+        Motion {
+            total_s: number(self.preflight.motion.total_s),
+            smallest_clearance: nearest.map(|nearest| Nearest {
+                clearance_m: number(nearest.clearance_m),
+                bodies: nearest.bodies.clone(),
+                time_s: number(nearest.time_s),
+            }),
+            ik_coverage: match self.job.cell.robot.arm.coverage() {
+                kinematics::Coverage::Complete => Coverage::Complete,
+                kinematics::Coverage::Sampled => Coverage::Sampled,
+            },
+        }
+    }
+}
+
+fn load(load: &growth::LoadResult) -> LoadCase {
+    let solved = load.fault.is_none();
+    LoadCase {
+        name: load.name.clone(),
+        deflection_m: solved.then_some(load.deflection_m).and_then(number),
+        first_yield: load.first_yield.and_then(number),
+        fault: load.fault.map(|fault| fault.to_string()),
+    }
+}
+
+fn totals(totals: &sim::preflight::Totals) -> Totals {
+    Totals {
+        time_s: number(totals.time_s),
+        print_s: number(totals.print_s),
+        dwell_s: number(totals.dwell_s),
+        transit_s: number(totals.transit_s),
+        length_m: number(totals.length_m),
+        mass_kg: number(totals.mass_kg),
+    }
+}
+
+fn assumption(assumption: &sim::preflight::Assumption) -> Assumption {
+    Assumption { about: assumption.about.to_owned(), text: assumption.text.clone() }
+}
+
+fn strand_motion(motion: StrandMotion) -> results::StrandMotion {
+    results::StrandMotion {
+        joint_speed_share: number(motion.joint_speed_share),
+        joint_margin_rad: number(motion.joint_margin_rad),
+        condition_number: number(motion.condition_number),
+        deviation_m: number(motion.deviation_m),
+    }
+}
+
+fn phase(phase: found::Phase) -> Phase {
+    match phase {
+        found::Phase::Approach => Phase::Approach,
+        found::Phase::Print => Phase::Print,
+        found::Phase::Dwell => Phase::Dwell,
+        found::Phase::Retract => Phase::Retract,
+        found::Phase::Transit => Phase::Transit,
+    }
+}
+
+fn finite_times(mut timing: Timing) -> Timing {
+    let finite = |time_s: f64| number(time_s).unwrap_or(0.0);
+    timing.total_s = finite(timing.total_s);
+    for step in &mut timing.steps {
+        step.time_s = finite(step.time_s);
+    }
+    timing
+}
+
+/// The number if JSON has it.
+pub(crate) fn number(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+pub(crate) fn range(interval: Interval) -> Range {
+    Range {
+        nominal: number(interval.nominal),
+        low: number(interval.low),
+        high: number(interval.high),
+    }
+}
+
+fn vector(vector: &Vector) -> Option<[f64; 3]> {
+    vector.iter().all(|value| value.is_finite()).then(|| [vector.x, vector.y, vector.z])
+}

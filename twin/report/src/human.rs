@@ -1,0 +1,220 @@
+//! The report for a terminal.
+
+use crate::parts::{Finding, Phase, Report, Severity, Verdict};
+use crate::quantity::{Unit, against, clock, digits};
+use crate::results::{Range, Strand};
+use crate::screen::{Paint, Screen};
+
+/// Errors told, and warnings told; the rest is in report.json.
+const FINDINGS_MAX: usize = 20;
+
+/// The report as text: verdict, findings, worst values, totals. At most `width` columns where words allow.
+///
+/// ```text
+/// INFEASIBLE  score 12 of 100  (R 80, C 12, P 55, S 50, E –)  tower
+/// ```
+pub fn human(report: &Report, color: bool, width: usize) -> String {
+    let mut screen = Screen::new(color, width);
+    verdict(report, &mut screen);
+    findings(report, Severity::Error, &mut screen);
+    findings(report, Severity::Warning, &mut screen);
+    strands(report, &mut screen);
+    frame(report, &mut screen);
+    totals(report, &mut screen);
+    screen.finish()
+}
+
+fn verdict(report: &Report, screen: &mut Screen) {
+    let (paint, word) = match report.verdict {
+        Verdict::Feasible => (Paint::Green, "FEASIBLE"),
+        Verdict::Infeasible => (Paint::Red, "INFEASIBLE"),
+    };
+    let score =
+        |score: Option<f64>| score.map_or_else(|| "–".to_owned(), |score| format!("{score:.0}"));
+    let scores = &report.scores;
+    let families = [
+        ("R", scores.reach),
+        ("C", scores.clearance),
+        ("P", scores.process),
+        ("S", scores.structure),
+        ("E", scores.program),
+    ];
+    let families: Vec<String> =
+        families.iter().map(|(letter, of)| format!("{letter} {}", score(*of))).collect();
+    let word = screen.paint(paint, word);
+    screen.line(&format!(
+        "{word}  score {} of 100  ({})  {}",
+        score(report.score),
+        families.join(", "),
+        report.name
+    ));
+}
+
+fn findings(report: &Report, severity: Severity, screen: &mut Screen) {
+    let all: Vec<&Finding> =
+        report.findings.iter().filter(|finding| finding.severity == severity).collect();
+    let word = match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    for finding in all.iter().take(FINDINGS_MAX) {
+        screen.line("");
+        one(report, finding, word, screen);
+    }
+    if let Some(more @ 1..) = all.len().checked_sub(FINDINGS_MAX) {
+        screen.line("");
+        screen.line(&format!("… and {} in report.json", counted(more, &format!("more {word}"))));
+    }
+}
+
+fn one(report: &Report, finding: &Finding, word: &str, screen: &mut Screen) {
+    let paint = if finding.severity == Severity::Error { Paint::Red } else { Paint::Yellow };
+    let head = screen.paint(paint, &format!("{word} {}", finding.code));
+    let title = screen.paint(Paint::Bold, &finding.title);
+    screen.line(&format!("{head} {title}"));
+    screen.labelled("", &finding.message);
+    let place = place(report, finding);
+    if !place.is_empty() {
+        screen.labelled("where", &place);
+    }
+    let times =
+        if finding.count > 1 { format!("; worst of {}", finding.count) } else { String::new() };
+    match against(finding) {
+        Some(against) => screen.labelled("found", &format!("{against}{times}")),
+        None if finding.count > 1 => screen.labelled("found", &format!("{} times", finding.count)),
+        None => {}
+    }
+    screen.labelled("hint", &finding.hint);
+}
+
+/// Strand, place on it, phase, line of the job, time.
+fn place(report: &Report, finding: &Finding) -> String {
+    let site = &finding.site;
+    let mut parts = Vec::new();
+    parts.extend(site.strand.as_ref().map(|strand| format!("strand {strand}")));
+    parts.extend(site.at_m.map(|at_m| format!("at {}", Unit::Millimetre.show(Some(at_m)))));
+    parts.extend(site.stage.map(|stage| format!("after {}", counted(stage, "strand"))));
+    parts.extend(site.node.map(|node| format!("node {node}")));
+    parts.extend(site.member.map(|member| format!("member {member}")));
+    parts.extend(site.phase.map(|phase| phase_word(phase).to_owned()));
+    parts.extend(finding.time_s.map(|time_s| clock(Some(time_s))));
+    let job = report.provenance.inputs.iter().find(|input| input.what == "job");
+    parts.extend(finding.line.map(|line| match job {
+        Some(job) => format!("{}:{line}", job.name),
+        None => format!("line {line}"),
+    }));
+    parts.join(", ")
+}
+
+fn phase_word(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Approach => "approach",
+        Phase::Print => "print",
+        Phase::Dwell => "dwell",
+        Phase::Retract => "retract",
+        Phase::Transit => "transit",
+    }
+}
+
+/// The worst strand of each kind.
+fn strands(report: &Report, screen: &mut Screen) {
+    if report.strands.is_empty() {
+        return;
+    }
+    screen.line("");
+    let heading =
+        screen.paint(Paint::Bold, &format!("worst of {}", counted(report.strands.len(), "strand")));
+    screen.line(&heading);
+    let core = |strand: &Strand| strand.uncured_core_m;
+    let rows: [(&str, &dyn Fn(&Strand) -> Option<Range>); 7] = [
+        ("bead", &|strand| Some(strand.bead_diameter_m)),
+        ("sag behind nozzle", &|strand| Some(strand.sag_nozzle_m)),
+        ("sag by slack", &|strand| Some(strand.sag_slack_m)),
+        ("sag once set", &|strand| Some(strand.sag_set_m)),
+        ("set behind nozzle", &|strand| Some(strand.set_distance_m)),
+        ("end pulled back", &|strand| Some(strand.end_miss_m)),
+        ("uncured core", &core),
+    ];
+    for (name, of) in rows {
+        let worst = report
+            .strands
+            .iter()
+            .filter_map(|strand| Some((strand, of(strand)?)))
+            .reduce(|worst, next| if size(&next.1) > size(&worst.1) { next } else { worst });
+        if let Some((strand, range)) = worst.filter(|(_, range)| size(range) > 0.0) {
+            let value = Unit::Millimetre.show_range(&range);
+            let order = if name == "sag behind nozzle" && !strand.sag_linear {
+                " (order of magnitude)"
+            } else {
+                ""
+            };
+            screen.line(&format!("  {name:<18} {value:<28} {}{order}", strand.id));
+        }
+    }
+}
+
+/// Nominal value to rank by; then the high end, for values that nominally are zero.
+fn size(range: &Range) -> f64 {
+    let nominal = range.nominal.unwrap_or(f64::INFINITY);
+    if nominal > 0.0 { nominal } else { 1e-9 * range.high.unwrap_or(f64::INFINITY) }
+}
+
+fn frame(report: &Report, screen: &mut Screen) {
+    screen.line("");
+    let worst = |of: fn(&crate::results::Stage) -> Option<f64>| {
+        let known = report.stages.iter().filter_map(|stage| Some((stage.printed, of(stage)?)));
+        known.reduce(|worst, next| if next.1 > worst.1 { next } else { worst })
+    };
+    if let Some((printed, one_shot_m)) = worst(|stage| stage.one_shot_m) {
+        let staged = worst(|stage| stage.staged_m).map_or_else(String::new, |(_, m)| {
+            format!(", staged {}", Unit::Millimetre.show(Some(m)))
+        });
+        let value = Unit::Millimetre.show(Some(one_shot_m));
+        let after = counted(printed, "strand");
+        screen
+            .line(&format!("frame      moves {value} by its weight, worst after {after}{staged}"));
+    }
+    for load in &report.loads {
+        let yields = load.first_yield.map_or_else(String::new, |factor| {
+            format!(", first yield at {} times the load", digits(factor))
+        });
+        let value = match &load.fault {
+            Some(fault) => format!("not solved: {fault}"),
+            None => format!("bends {}{yields}", Unit::Millimetre.show(load.deflection_m)),
+        };
+        screen.line(&format!("load       {}: {value}", load.name));
+    }
+    if let Some(nearest) = &report.motion.smallest_clearance {
+        let [a, b] = &nearest.bodies;
+        let value = Unit::Millimetre.show(nearest.clearance_m);
+        let at = clock(nearest.time_s);
+        screen.line(&format!("clearance  {value} at the least, {a} to {b} at {at}"));
+    }
+}
+
+fn totals(report: &Report, screen: &mut Screen) {
+    let totals = &report.totals;
+    let many = |value: Option<f64>, scale: f64| {
+        value.map_or_else(|| "?".to_owned(), |value| digits(value * scale))
+    };
+    screen.line(&format!(
+        "totals     {} m, {} g",
+        many(totals.length_m, 1.0),
+        many(totals.mass_kg, 1e3)
+    ));
+    screen.line(&format!(
+        "time       {}: print {}, dwell {}, transit {}",
+        clock(totals.time_s),
+        clock(totals.print_s),
+        clock(totals.dwell_s),
+        clock(totals.transit_s)
+    ));
+    screen.line(&format!(
+        "           {} in report.json",
+        counted(report.assumptions.len(), "assumption")
+    ));
+}
+
+fn counted(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}

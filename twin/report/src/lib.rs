@@ -1,0 +1,45 @@
+//! What the twin found, as JSON for programs and as text for a terminal.
+//!
+//! [`Report::new`] takes everything it says from a [`sim::preflight::Preflight`]; hashes, times and
+//! the name of who drew the pictures come from the caller. Nothing here computes a result.
+//! `report.json` is in SI; mm, degrees and percent are on screens alone. The same input gives the
+//! same bytes but for `provenance` and `timing`.
+
+mod fill;
+mod human;
+mod parts;
+mod quantity;
+mod results;
+#[cfg(test)]
+mod sample;
+mod screen;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_human;
+
+pub use human::human;
+pub use parts::{
+    Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
+    Timing, Totals, Verdict,
+};
+pub use results::{
+    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion,
+};
+
+/// Value of `schema` in every report this version writes.
+pub const SCHEMA: &str = "twin-report/1";
+
+/// The report as JSON, indented, with a line feed at its end.
+pub fn to_json(report: &Report) -> String {
+    let mut text =
+        serde_json::to_string_pretty(report).expect("structs and lists of finite numbers");
+    text.push('\n');
+    text
+}
+
+/// JSON Schema (draft 2020-12) of what [`to_json`] writes.
+pub fn schema() -> serde_json::Value {
+    let settings = schemars::generate::SchemaSettings::draft2020_12().for_serialize();
+    settings.into_generator().into_root_schema_for::<Report>().to_value()
+}

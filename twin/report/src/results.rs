@@ -1,0 +1,188 @@
+//! The parts of a report that tell results: strands, stages, landings, motion, loads.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A number that is not known exactly; null where it is not finite (never sets, sags without end).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Range {
+    /// What is expected.
+    pub nominal: Option<f64>,
+    /// Low end.
+    pub low: Option<f64>,
+    /// High end.
+    pub high: Option<f64>,
+}
+
+/// What became of one strand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Strand {
+    /// Its name in the job.
+    pub id: String,
+    /// Its line in the job's text, from 1.
+    pub line: Option<usize>,
+    /// Start of its extrusion, s.
+    pub start_s: Option<f64>,
+    /// End of its extrusion, s.
+    pub end_s: Option<f64>,
+    /// Its length, m.
+    pub length_m: Option<f64>,
+    /// Mean asked speed of the nozzle, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Mean flow the extruder is told, m³/s.
+    pub flow_m3_s: Option<f64>,
+    /// What holds it while it is printed.
+    pub ends: Ends,
+    /// Longest unsupported span, m.
+    pub span_m: Option<f64>,
+    /// Diameter once set, m.
+    pub bead_diameter_m: Range,
+    /// Nozzle speed over the speed of a free strand.
+    pub draw_ratio: Range,
+    /// Age at which it is set, s; null: never.
+    pub set_time_s: Range,
+    /// How far behind the nozzle that is, m; null: never.
+    pub set_distance_m: Range,
+    /// Sag behind the nozzle, m.
+    pub sag_nozzle_m: Range,
+    /// Whether that is inside linear theory at its nominal value; else an order of magnitude.
+    pub sag_linear: bool,
+    /// Sag of a strand longer than its chord, m.
+    pub sag_slack_m: Range,
+    /// Sag of the set strand under its own weight, m.
+    pub sag_set_m: Range,
+    /// How far its end is pulled back after the nozzle has left it, m.
+    pub end_miss_m: Range,
+    /// Radius left uncured, m; null: not a photopolymer.
+    pub uncured_core_m: Option<Range>,
+    /// Share of the area that is solid.
+    pub area_fraction: Range,
+    /// Share of the bending stiffness that is solid.
+    pub stiffness_fraction: Range,
+    /// Linear strain it still wants to lose once set; positive is shorter.
+    pub free_strain: Range,
+    /// Laws used.
+    pub laws: Vec<String>,
+    /// What the arm does along it; null: nothing of it is reached.
+    pub motion: Option<StrandMotion>,
+}
+
+/// What holds a strand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ends {
+    /// Joined at both ends.
+    BothHeld,
+    /// Joined where it begins; the far end is free when the nozzle leaves.
+    StartHeld,
+    /// Lies on bed or form.
+    Resting,
+}
+
+/// What the arm does along a strand, at its worst.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StrandMotion {
+    /// Largest share of a joint's speed limit at the asked print speed.
+    pub joint_speed_share: Option<f64>,
+    /// Least distance of a revolute joint to its stop, rad; null: no stops.
+    pub joint_margin_rad: Option<f64>,
+    /// Largest condition number, length scale 1 m; null: singular.
+    pub condition_number: Option<f64>,
+    /// Largest distance of the TCP from the strand, m.
+    pub deviation_m: Option<f64>,
+}
+
+/// The frame at one moment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Number of strands printed.
+    pub printed: usize,
+    /// The form just released, if this stage is a release.
+    pub released: Option<String>,
+    /// Largest displacement, gravity on the frame as it stands so far, m; null: nothing solved.
+    pub one_shot_m: Option<f64>,
+    /// Largest displacement when each strand is born stress-free on the frame as it then stands, m.
+    pub staged_m: Option<f64>,
+    /// Node of the largest one-shot displacement.
+    pub node: Option<usize>,
+    /// Largest share of strength used, one-shot.
+    pub utilisation: Option<f64>,
+    /// Forces left out of balance relative to the loads, one-shot.
+    pub residual: Option<f64>,
+}
+
+/// What moves a node that a strand begins or ends on, each part by itself, in part axes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Landing {
+    /// The strand that lands.
+    pub strand: String,
+    /// Whether it is its end rather than its start.
+    pub at_end: bool,
+    /// The node.
+    pub node: usize,
+    /// Displacement by gravity, m.
+    pub frame_m: Option<[f64; 3]>,
+    /// Displacement by shrinkage, m.
+    pub shrinkage_m: Option<[f64; 3]>,
+    /// Displacement by the nozzle's push, m.
+    pub push_m: Option<[f64; 3]>,
+    /// Length of the push, m.
+    pub push_length_m: Range,
+    /// Length of the sum of the three, m.
+    pub sum_m: Option<f64>,
+    /// Accuracy of the arm, m; of unknown direction.
+    pub accuracy_m: Option<f64>,
+}
+
+/// The motion as a whole.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// Length of the program, s.
+    pub total_s: Option<f64>,
+    /// Smallest clearance measured; null: nothing came near anything.
+    pub smallest_clearance: Option<Nearest>,
+    /// Whether every posture was looked at or a search's.
+    pub ik_coverage: Coverage,
+}
+
+/// Two bodies at their nearest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Nearest {
+    /// Clearance, m; negative: overlap.
+    pub clearance_m: Option<f64>,
+    /// The two bodies.
+    pub bodies: [String; 2],
+    /// When, s.
+    pub time_s: Option<f64>,
+}
+
+/// Whether inverse kinematics finds every posture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Coverage {
+    /// All branches, in closed form.
+    Complete,
+    /// What a numerical search found.
+    Sampled,
+}
+
+/// What a load case came to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadCase {
+    /// Its name.
+    pub name: String,
+    /// Largest displacement of a node under weight and forces, m; null: not solved.
+    pub deflection_m: Option<f64>,
+    /// Factor on the forces at which the first member yields; null: not found.
+    pub first_yield: Option<f64>,
+    /// Why the case could not be solved, if it could not.
+    pub fault: Option<String>,
+}

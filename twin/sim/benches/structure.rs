@@ -1,0 +1,179 @@
+//! A print, stage by stage: one ordering per run of stages and sparse factors, beside the naive way
+//! of a dense Cholesky from nothing at every stage.
+//!
+//! The frames are lattice towers made here: as many members and nodes as the bunny (384/130) and the
+//! duck (909/305) of the literature, printed from the ground up.
+
+#![allow(missing_docs)]
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use nalgebra::{DMatrix, DVector};
+use sim::pose::{Point, Vector};
+use sim::structure::{
+    Ask, Elastic, Frame, Member, Section, Stage, Strength, Support, solve_stages,
+};
+
+const DOWN: [f64; 3] = [0.0, 0.0, -9.80665];
+
+/// Rings of seven nodes; each ring hangs on the one below by uprights, diagonals and itself.
+fn tower(node_count: usize, member_count: usize) -> Frame {
+    let ring = 7;
+    let nodes = (0..node_count)
+        .map(|node| {
+            let angle = std::f64::consts::TAU * (node % ring) as f64 / ring as f64;
+            let radius_m = 0.05 + 0.01 * ((node / ring) as f64 * 0.7).sin();
+            let height_m = 0.02 * (node / ring) as f64 + 0.001 * (node % ring) as f64;
+            Point::new(radius_m * angle.cos(), radius_m * angle.sin(), height_m)
+        })
+        .collect();
+    let mut members = Vec::new();
+    for node in ring..node_count {
+        let below = node - ring;
+        let diagonal = below - below % ring + (below + 1) % ring;
+        let mut ends = vec![below, diagonal];
+        if node % ring > 0 {
+            ends.push(node - 1);
+        }
+        if members.len() + ends.len() + 2 * (node_count - 1 - node) < member_count {
+            ends.push(below - below % ring + (below + 3) % ring);
+        }
+        members.extend(ends.into_iter().map(|below| member([below, node])));
+    }
+    members.truncate(member_count);
+    Frame::new(nodes, members).expect("the tower is made of sound members")
+}
+
+fn member(ends: [usize; 2]) -> Member {
+    Member {
+        ends,
+        section: Section::circle(3e-3),
+        elastic: Elastic::isotropic(3.5e9, 0.36),
+        density_kg_m3: 1240.0,
+        initial_strain: 0.0,
+        side: Vector::zeros(),
+        strand: 0,
+    }
+}
+
+fn stages(frame: &Frame) -> Vec<Stage> {
+    let stage = |born| Stage {
+        born,
+        supports: (0..7).map(Support::clamped).collect(),
+        gravity_m_s2: DOWN,
+        at_nodes: Vec::new(),
+        stiffness: Vec::new(),
+    };
+    (1..=frame.members().len()).map(stage).collect()
+}
+
+/// Euler-Bernoulli by triple product, dense assembly of the born nodes, dense Cholesky.
+fn naive(frame: &Frame) -> f64 {
+    let mut most_m = 0.0f64;
+    for born in 1..=frame.members().len() {
+        let members = &frame.members()[..born];
+        let mut place = vec![usize::MAX; frame.nodes().len()];
+        let mut count = 0;
+        for node in members.iter().flat_map(|member| member.ends) {
+            if node >= 7 && place[node] == usize::MAX {
+                place[node] = count;
+                count += 1;
+            }
+        }
+        let mut k = DMatrix::zeros(6 * count, 6 * count);
+        let mut f = DVector::zeros(6 * count);
+        for member in members {
+            add(frame, member, &place, &mut k, &mut f);
+        }
+        let Some(factor) = k.cholesky() else { continue };
+        let u = factor.solve(&f);
+        for node in 0..count {
+            most_m = most_m.max(u.fixed_rows::<3>(6 * node).norm());
+        }
+    }
+    most_m
+}
+
+fn add(
+    frame: &Frame,
+    member: &Member,
+    place: &[usize],
+    k: &mut DMatrix<f64>,
+    f: &mut DVector<f64>,
+) {
+    let [from, to] = member.ends.map(|node| frame.nodes()[node]);
+    let l = (to - from).norm();
+    let x = (to - from) / l;
+    let (e, g, s) = (member.elastic.e_pa, member.elastic.g_pa, member.section);
+    let along = x * x.transpose();
+    let across = nalgebra::Matrix3::identity() - along;
+    let turn = x.cross_matrix();
+    let (ea, gj, ei) = (e * s.area_m2 / l, g * s.j_m4 / l, e * s.iy_m4 / l);
+    // closed form of the round beam in global axes: no member axes at all
+    let shift = along * ea + across * (12.0 * ei / (l * l));
+    let cross = turn * (-6.0 * ei / l);
+    let blocks = [
+        [shift, cross, -shift, cross],
+        [-cross, along * gj + across * (4.0 * ei), cross, across * (2.0 * ei) - along * gj],
+        [-shift, -cross, shift, -cross],
+        [-cross, across * (2.0 * ei) - along * gj, cross, along * gj + across * (4.0 * ei)],
+    ];
+    let w = Vector::from(DOWN) * (member.density_kg_m3 * s.area_m2);
+    let moment = x.cross(&w) * (l * l / 12.0);
+    let loads = [w * (l / 2.0), moment, w * (l / 2.0), -moment];
+    for row in 0..4 {
+        let a = place[member.ends[row / 2]];
+        if a == usize::MAX {
+            continue;
+        }
+        let at = 6 * a + 3 * (row % 2);
+        let mut part = f.fixed_rows_mut::<3>(at);
+        part += loads[row];
+        for column in 0..4 {
+            let b = place[member.ends[column / 2]];
+            if b != usize::MAX {
+                let mut part = k.fixed_view_mut::<3, 3>(at, 6 * b + 3 * (column % 2));
+                part += blocks[row][column];
+            }
+        }
+    }
+}
+
+fn most_one_shot(frame: &Frame, stages: &[Stage], ask: Ask) -> f64 {
+    let records = solve_stages(frame, stages, ask).expect("the tower stands");
+    let state = |record: &sim::structure::StageRecord| {
+        record.one_shot.as_ref().map_or(0.0, |state| state.max_translation_m)
+    };
+    records.iter().map(state).fold(0.0, f64::max)
+}
+
+fn bench(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("stages");
+    group.sample_size(10);
+    for (nodes, members) in [(130, 384), (305, 909)] {
+        let frame = tower(nodes, members);
+        assert_eq!(frame.members().len(), members);
+        let stages = stages(&frame);
+        let strength = Strength { tension_pa: 4e7, compression_pa: 6e7, bond_fraction: 0.5 };
+        let strengths = vec![strength; members];
+        let one_shot = Ask::default();
+        let all = Ask { staged: true, strengths: &strengths, keep: &[] };
+        if nodes < 200 {
+            let (ours, theirs) = (most_one_shot(&frame, &stages, one_shot), naive(&frame));
+            assert!((ours / theirs - 1.0).abs() < 1e-6, "{ours} {theirs}: not the same answer");
+            group.bench_function(BenchmarkId::new("naive dense", members), |bencher| {
+                bencher.iter(|| naive(black_box(&frame)));
+            });
+        }
+        for (name, ask) in [("one-shot", one_shot), ("one-shot, staged, strength", all)] {
+            group.bench_function(BenchmarkId::new(name, members), |bencher| {
+                bencher.iter(|| most_one_shot(black_box(&frame), black_box(&stages), ask));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, bench);
+criterion_main!(benches);

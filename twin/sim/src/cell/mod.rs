@@ -1,0 +1,16 @@
+//! What stands in the room and what is to be printed: everything resolved, in SI, unchanging.
+
+mod job;
+mod machine;
+mod machine_from_files;
+mod material_from_file;
+mod resolve;
+
+pub use job::{
+    Air, At, End, Event, Flow, Follow, Form, Interpolation, Join, Job, Limits, LoadCase, On, Orientation,
+    PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+};
+pub use machine::{
+    Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart,
+};
+pub use resolve::{Parts, resolve};

@@ -1,0 +1,345 @@
+//! A document and the files it names become a [`Job`]: names looked up, units turned to SI.
+//!
+//! Input is refused, never repaired; every problem is reported at its place in the job's text.
+
+use std::collections::BTreeMap;
+
+use slam::cell_file::CellFile;
+use slam::document::{self as doc, Document};
+use slam::material_file::MaterialFile;
+use slam::mesh::Mesh;
+use slam::robot_file::RobotFile;
+use slam::tool_file::ToolFile;
+use slam::urdf::RobotDescription;
+use slam::{Diagnostic, Span, Spanned};
+
+use super::job::{
+    Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On, Orientation,
+    PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+};
+use super::machine::Cell;
+use super::{machine_from_files, material_from_file};
+use crate::pose::{self, Point, Pose, Vector};
+
+/// All files a job names, already read and parsed by the caller.
+#[derive(Debug)]
+pub struct Parts<'a> {
+    /// The cell.
+    pub cell: &'a CellFile,
+    /// Its robot's own file; `None` for a URDF that stands alone.
+    pub robot: Option<&'a RobotFile>,
+    /// Its robot's URDF.
+    pub urdf: &'a RobotDescription,
+    /// Meshes of the robot's links, by the path in the URDF.
+    pub link_meshes: &'a BTreeMap<String, Mesh>,
+    /// Its tool.
+    pub tool: &'a ToolFile,
+    /// The material.
+    pub material: &'a MaterialFile,
+    /// One mesh per form of the job, in order, mm.
+    pub form_meshes: &'a [Mesh],
+}
+
+/// Resolves a job.
+///
+/// # Errors
+/// All problems found, with places in the job's text.
+pub fn resolve(document: &Document, parts: &Parts<'_>) -> Result<Job, Vec<Diagnostic>> {
+    let cell = machine_from_files::cell(parts).map_err(|fault| {
+        let message = format!("cell `{}` cannot be used: {fault}", document.cell.value);
+        vec![Diagnostic::error(document.cell.span, message)]
+    })?;
+    let mut resolver = Resolver { document, cell: &cell, problems: Vec::new() };
+    let forms = resolver.forms(parts.form_meshes);
+    let strands: Vec<Strand> = document.strands.iter().map(|strand| resolver.strand(strand)).collect();
+    let steps = resolver.steps();
+    let limits = resolver.limits();
+    let problems = resolver.problems;
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let environment = &document.environment;
+    Ok(Job {
+        name: document.name.value.clone(),
+        material: material_from_file::material(parts.material),
+        bed_from_part: placement(&document.placement),
+        air: Air {
+            temperature_k: environment.air_c.map_or(23.0, |air| air.value) + 273.15,
+            speed_m_s: environment.air_m_s.map_or(0.0, |air| air.value),
+        },
+        forms,
+        strands,
+        steps,
+        loads: document.loads.iter().map(load_case).collect(),
+        limits,
+        cell,
+    })
+}
+
+/// Tilt of the nozzle for jobs that do not say: Kirkman's 20° and 40°.
+const TILT_FROM_DEG: f64 = 20.0;
+const TILT_MAX_DEG: f64 = 40.0;
+
+struct Resolver<'a> {
+    document: &'a Document,
+    cell: &'a Cell,
+    problems: Vec<Diagnostic>,
+}
+
+impl Resolver<'_> {
+    fn error(&mut self, span: Span, message: String, hint: &str) {
+        self.problems.push(Diagnostic::error(span, message).hint(hint));
+    }
+
+    fn forms(&mut self, meshes: &[Mesh]) -> Vec<Form> {
+        assert_eq!(meshes.len(), self.document.forms.len(), "one mesh per form");
+        let form = |(form, mesh): (&doc::Form, &Mesh)| {
+            let part_from_mesh = placement(&form.placement);
+            let vertices =
+                mesh.vertices.iter().map(|&v| part_from_mesh * Point::from(mm(v))).collect();
+            Form {
+                id: form.id.value.clone(),
+                vertices,
+                triangles: mesh.triangles.clone(),
+                adhesion_pa: form.adhesion_mpa.map_or(0.0, |mpa| mpa.value * 1e6),
+            }
+        };
+        self.document.forms.iter().zip(meshes).map(form).collect()
+    }
+
+    fn form_index(&self, id: &str) -> Option<usize> {
+        self.document.forms.iter().position(|form| form.id.value == id)
+    }
+
+    fn strand_index(&self, id: &str) -> Option<usize> {
+        self.document.strands.iter().position(|strand| strand.id.value == id)
+    }
+
+    fn strand(&mut self, strand: &doc::Strand) -> Strand {
+        let points: Vec<Point> = strand.points_mm.iter().map(|p| Point::from(mm(p.value))).collect();
+        let directions = strand
+            .directions
+            .as_ref()
+            .map(|rows| rows.iter().map(|row| Vector::from(row.value).normalize()).collect::<Vec<_>>());
+        let settings = self.settings(strand, directions.is_some());
+        Strand {
+            id: strand.id.value.clone(),
+            span: strand.span,
+            points,
+            joints: strand.joints.as_ref().map(|rows| self.joint_rows(&rows.value, rows.span)),
+            directions,
+            times_s: strand.times_s.as_ref().map(|times| times.value.clone()),
+            on: self.on(strand.on.as_ref()),
+            start: self.end(&strand.start, 0.0),
+            end: self.end(&strand.end, settings.dwell_s),
+            profile: strand.profile.iter().map(profile_point).collect(),
+            events: strand.events.iter().map(|event| self.event(event)).collect(),
+            settings,
+        }
+    }
+
+    fn settings(&mut self, strand: &doc::Strand, has_directions: bool) -> Settings {
+        let (own, common) = (&strand.process, &self.document.process);
+        let extruder = &self.cell.extruder;
+        let pick = |own: Option<Spanned<f64>>, common: Option<Spanned<f64>>, default: f64| {
+            own.or(common).map_or(default, |value| value.value)
+        };
+        let speed_m_s = pick(own.speed_mm_s, common.speed_mm_s, extruder.speed_m_s * 1e3) / 1e3;
+        let follow = own.orientation.follow.or(common.orientation.follow);
+        let follow_value = match follow.map(|follow| follow.value) {
+            None if has_directions => Follow::Given,
+            None | Some(doc::Follow::Vertical) => Follow::Vertical,
+            Some(doc::Follow::Tangent) => Follow::Tangent,
+            Some(doc::Follow::SurfaceNormal) => Follow::SurfaceNormal,
+            Some(doc::Follow::Given) => Follow::Given,
+        };
+        let settings = Settings {
+            speed_m_s,
+            flow: Flow::Diameter(extruder.diameter_m),
+            prime_s: pick(own.prime_s, common.prime_s, 0.0),
+            lights_after_m: pick(own.lights_after_mm, common.lights_after_mm, 0.0) / 1e3,
+            overrun_m: pick(own.overrun_mm, common.overrun_mm, 0.0) / 1e3,
+            dwell_s: pick(own.dwell_s, common.dwell_s, 0.0),
+            approach_m: pick(own.approach_mm, common.approach_mm, extruder.approach_m * 1e3) / 1e3,
+            retract_m: pick(own.retract_mm, common.retract_mm, extruder.approach_m * 1e3) / 1e3,
+            orientation: Orientation {
+                follow: follow_value,
+                tilt: match own.orientation.tilt.or(common.orientation.tilt).map(|tilt| tilt.value) {
+                    Some(doc::Tilt::PerAxis) => Tilt::PerAxis,
+                    Some(doc::Tilt::Cone) | None => Tilt::Cone,
+                },
+                tilt_from_rad: pick(
+                    own.orientation.tilt_from_deg,
+                    common.orientation.tilt_from_deg,
+                    TILT_FROM_DEG,
+                )
+                .to_radians(),
+                tilt_max_rad: pick(
+                    own.orientation.tilt_max_deg,
+                    common.orientation.tilt_max_deg,
+                    TILT_MAX_DEG,
+                )
+                .to_radians(),
+                spin: match own.orientation.spin.or(common.orientation.spin).map(|spin| spin.value) {
+                    Some(doc::Spin::HeldDeg(deg)) => Spin::Held(deg.to_radians()),
+                    Some(doc::Spin::Free) | None => Spin::Free,
+                },
+            },
+            interpolation: match own.interpolation.or(common.interpolation).map(|i| i.value) {
+                Some(doc::Interpolation::Joint) => Interpolation::Joint,
+                Some(doc::Interpolation::Linear) | None => Interpolation::Linear,
+            },
+        };
+        let flow = own.flow.or(common.flow);
+        let follow_span = follow.map_or(strand.span, |follow| follow.span);
+        self.follow_is_possible(follow_value, follow_span, strand);
+        Settings { flow: self.flow(flow).unwrap_or(settings.flow), ..settings }
+    }
+
+    fn follow_is_possible(&mut self, follow: Follow, span: Span, strand: &doc::Strand) {
+        let on_form = matches!(strand.on.as_ref().map(|on| &on.value), Some(doc::On::Form(_)));
+        let id = &strand.id.value;
+        if follow == Follow::Given && strand.directions.is_none() {
+            let message = format!("strand `{id}` is to follow given directions but has none");
+            self.error(span, message, "add `directions`, one per point, or choose another `follow`");
+        }
+        if follow == Follow::SurfaceNormal && !on_form {
+            let message = format!("strand `{id}` is to follow a surface normal but lies on no form");
+            self.error(span, message, "say `\"on\": \"<id of a form>\"`, or choose another `follow`");
+        }
+    }
+
+    fn flow(&mut self, flow: Option<Spanned<doc::Flow>>) -> Option<Flow> {
+        let flow = flow?;
+        match flow.value {
+            doc::Flow::DiameterMm(diameter) => Some(Flow::Diameter(diameter / 1e3)),
+            doc::Flow::RateMm3S(rate) => Some(Flow::Rate(rate / 1e9)),
+            doc::Flow::Level(level) => {
+                let levels = &self.cell.extruder.levels_m3_s;
+                let rate = (level as usize).checked_sub(1).and_then(|k| levels.get(k)).copied();
+                if rate.is_none() {
+                    let message = format!(
+                        "the extruder of cell `{}` has no flow level {level}; it has {}",
+                        self.cell.name,
+                        levels.len()
+                    );
+                    self.error(flow.span, message, "say `diameter_mm` or `rate_mm3_s` instead");
+                }
+                rate.map(Flow::Rate)
+            }
+        }
+    }
+
+    fn joint_rows(&mut self, rows: &[Vec<f64>], span: Span) -> Vec<Vec<f64>> {
+        let joints = machine_from_files::free_joints(&self.cell.robot.arm.chain);
+        let n_joints = joints.len();
+        if let Some((row, values)) = rows.iter().enumerate().find(|(_, row)| row.len() != n_joints) {
+            let message =
+                format!("row {row} has {} joint values, the arm has {n_joints} joints", values.len());
+            self.error(span, message, "joints that the cell holds are left out of the rows");
+            return Vec::new();
+        }
+        let scale: Vec<f64> = joints.iter().map(|joint| machine_from_files::joint_scale(joint)).collect();
+        rows.iter().map(|row| row.iter().zip(&scale).map(|(q, scale)| q * scale).collect()).collect()
+    }
+
+    fn on(&self, on: Option<&Spanned<doc::On>>) -> On {
+        match on.map(|on| &on.value) {
+            None | Some(doc::On::Air) => On::Air,
+            Some(doc::On::Bed) => On::Bed,
+            Some(doc::On::Form(id)) => On::Form(self.form_index(id).expect("slam checked the id")),
+        }
+    }
+
+    fn end(&self, end: &doc::End, dwell_s: f64) -> End {
+        let join = end.join.as_ref().map(|join| match &join.value {
+            doc::Join::Bed => Join::Bed,
+            doc::Join::Free => Join::Free,
+            doc::Join::Id(id) => match (self.form_index(id), self.strand_index(id)) {
+                (Some(form), _) => Join::Form(form),
+                (None, strand) => Join::Strand(strand.expect("slam checked the id")),
+            },
+        });
+        End { join, dwell_s: end.dwell_s.map_or(dwell_s, |dwell| dwell.value) }
+    }
+
+    fn event(&mut self, event: &doc::Event) -> Event {
+        const ALWAYS: [&str; 4] = ["flow", "light", "air", "heater"];
+        let set = &event.set.value;
+        if !ALWAYS.contains(&set.as_str()) && !self.cell.io.contains(set) {
+            let message = format!("cell `{}` has no output `{set}`", self.cell.name);
+            let known = ALWAYS.iter().copied().chain(self.cell.io.iter().map(String::as_str));
+            let hint = format!("it has {}", known.collect::<Vec<_>>().join(", "));
+            self.error(event.set.span, message, &hint);
+        }
+        let at = match event.at.value {
+            doc::At::Mm(mm) => At::Length(mm / 1e3),
+            doc::At::S(s) => At::Time(s),
+        };
+        Event { from_end: event.from_end, at, set: set.clone(), on: event.on.value }
+    }
+
+    fn steps(&mut self) -> Vec<Step> {
+        let Some(sequence) = &self.document.sequence else {
+            return (0..self.document.strands.len()).map(Step::Print).collect();
+        };
+        let mut steps = Vec::with_capacity(sequence.len());
+        for step in sequence {
+            steps.push(match &step.value {
+                doc::Step::Strand(id) => Step::Print(self.strand_index(id).expect("slam checked the id")),
+                doc::Step::Move(rows) => Step::Move(self.joint_rows(rows, step.span)),
+                doc::Step::Wait(s) => Step::Wait(*s),
+                doc::Step::Release(id) => {
+                    Step::Release(self.form_index(id).expect("slam checked the id"))
+                }
+                doc::Step::Checkpoint(name) => Step::Checkpoint(name.clone()),
+            });
+        }
+        steps
+    }
+
+    fn limits(&self) -> Limits {
+        let (asked, default) = (&self.document.limits, &self.cell.limits);
+        let pick = |asked: Option<Spanned<f64>>, default: f64| asked.map_or(default, |mm| mm.value / 1e3);
+        Limits {
+            clearance_m: pick(asked.clearance_mm, default.clearance_m),
+            node_miss_m: pick(asked.node_miss_mm, default.node_miss_m),
+            sag_m: pick(asked.sag_mm, default.sag_m),
+            deflection_m: pick(asked.deflection_mm, default.deflection_m),
+            ..default.clone()
+        }
+    }
+}
+
+fn profile_point(point: &doc::ProfilePoint) -> ProfilePoint {
+    ProfilePoint {
+        at_m: point.at_mm.value / 1e3,
+        speed_m_s: point.speed_mm_s.map(|speed| speed.value / 1e3),
+        flow_m3_s: point.flow_mm3_s.map(|flow| flow.value / 1e9),
+    }
+}
+
+fn load_case(case: &doc::LoadCase) -> LoadCase {
+    let support = |support: &doc::SupportPoint| {
+        let doc::Fix { xyz: [x, y, z], rotations: r } = support.fix.value;
+        Support { at: Point::from(mm(support.at_mm.value)), fixed: [x, y, z, r, r, r] }
+    };
+    let force = |force: &doc::PointForce| PointForce {
+        at: Point::from(mm(force.at_mm.value)),
+        force_n: Vector::from(force.force_n.value),
+    };
+    LoadCase {
+        name: case.name.value.clone(),
+        supports: case.supports.iter().map(support).collect(),
+        forces: case.forces.iter().map(force).collect(),
+    }
+}
+
+fn mm(xyz_mm: [f64; 3]) -> [f64; 3] {
+    xyz_mm.map(|value| value / 1e3)
+}
+
+fn placement(placement: &doc::Placement) -> Pose {
+    let triple = |triple: Option<doc::Triple>| triple.map_or([0.0; 3], |triple| triple.value);
+    pose::from_xyz_rpy(mm(triple(placement.xyz_mm)), triple(placement.rpy_deg).map(f64::to_radians))
+}

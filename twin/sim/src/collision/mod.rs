@@ -1,0 +1,253 @@
+//! Clearance of tool, arm, bed and fixtures, against the deposit and against each other.
+//!
+//! | pair | code | looked at |
+//! |---|---|---|
+//! | nozzle, other tool parts – earlier strands | C201, C202 | every moment |
+//! | arm links – strands | C203 | every third moment |
+//! | nozzle and tool – strand in progress | C204 | every moment of a print |
+//! | tool, arm, moving bed – bed, forms, fixtures | C205 | tool every moment, arm every third |
+//! | arm, tool – arm itself | C206 | every third moment |
+//!
+//! Clearance is measured at the moments of the motion, which are at most 4 mm of strand, 5 mm of
+//! straight travel or 0.05 rad of a joint apart, not swept between them; the report says so.
+//! Beads are tested at full width into nodes and crossings. What may touch is the *touch zone* of
+//! the cell: the nozzle within that distance of a place where its strand touches the other one.
+
+mod bodies;
+mod fixtures;
+mod strands;
+#[cfg(test)]
+mod tests;
+mod zone;
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::cell::Job;
+use crate::deposit::{Contact, Deposit};
+use crate::finding::{Code, Findings, Phase, Site};
+use crate::interval::Interval;
+use crate::motion::{Leg, Motion};
+use crate::pose::{Point, Pose};
+
+use bodies::Bodies;
+
+/// Smallest clearance found, with its pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// Clearance, m; negative: overlap.
+    pub clearance_m: f64,
+    /// The two bodies.
+    pub bodies: [String; 2],
+    /// When, s.
+    pub time_s: f64,
+}
+
+/// Every how many moments arm links are looked at.
+const ARM_STRIDE: usize = 3;
+
+/// Judges every leg of the motion; legs are looked at in parallel, findings kept in order.
+pub fn check(
+    job: &Job,
+    motion: &Motion,
+    deposit: &Deposit,
+    contacts: &[Contact],
+    findings: &mut Findings,
+) -> Option<Nearest> {
+    let bodies = Bodies::new(job);
+    let parts: Vec<(Findings, Option<Nearest>)> = motion
+        .legs
+        .par_iter()
+        .map(|leg| {
+            let mut look = Look::new(job, &bodies, deposit, contacts, leg);
+            look.leg();
+            (look.findings, look.nearest)
+        })
+        .collect();
+    let mut nearest: Option<Nearest> = None;
+    for (found, near) in parts {
+        findings.absorb(found);
+        nearest = nearer(nearest, near);
+    }
+    nearest
+}
+
+fn nearer(a: Option<Nearest>, b: Option<Nearest>) -> Option<Nearest> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.clearance_m < a.clearance_m { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
+/// One leg under the glass.
+struct Look<'a> {
+    job: &'a Job,
+    bodies: &'a Bodies,
+    deposit: &'a Deposit,
+    leg: &'a Leg,
+    /// Contacts of the strand being approached, printed or left.
+    zone_contacts: Vec<&'a Contact>,
+    /// Bodies further apart than this are not measured.
+    horizon_m: f64,
+    near: Vec<u32>,
+    /// Pairs of bodies last seen further apart than the horizon. As long as their motion since is
+    /// less than the rest, they need not be measured.
+    apart: BTreeMap<(&'a str, &'a str), Apart>,
+    findings: Findings,
+    nearest: Option<Nearest>,
+}
+
+/// How far apart two bodies were, and where they then stood.
+struct Apart {
+    clearance_m: f64,
+    pose: Pose,
+    other_pose: Pose,
+}
+
+/// Where everything is at one moment.
+struct Now {
+    time_s: f64,
+    at_m: f64,
+    /// Poses of the bodies that move with chain joints, world axes.
+    carriers: Vec<Pose>,
+    world_from_tool: Pose,
+    world_from_bed: Pose,
+    part_from_world: Pose,
+    /// The orifice in part axes.
+    tip: Point,
+}
+
+impl<'a> Look<'a> {
+    fn new(
+        job: &'a Job,
+        bodies: &'a Bodies,
+        deposit: &'a Deposit,
+        contacts: &'a [Contact],
+        leg: &'a Leg,
+    ) -> Self {
+        let order = leg.strand.and_then(|strand| {
+            deposit.strands.iter().position(|printed| printed.strand == strand)
+        });
+        let concerns = |contact: &&Contact| order.is_some_and(|order| contact.orders.contains(&order));
+        let zoned = leg.phase != Phase::Transit;
+        Self {
+            job,
+            bodies,
+            deposit,
+            leg,
+            zone_contacts: contacts.iter().filter(concerns).filter(|_| zoned).collect(),
+            horizon_m: 2.0 * job.limits.clearance_m,
+            near: Vec::new(),
+            apart: BTreeMap::new(),
+            findings: Findings::default(),
+            nearest: None,
+        }
+    }
+
+    fn leg(&mut self) {
+        let last = self.leg.moments.len().saturating_sub(1);
+        for k in 0..self.leg.moments.len() {
+            let now = self.now(k);
+            self.tool_and_strands(&now);
+            self.tool_and_fixtures(&now);
+            if k % ARM_STRIDE == 0 || k == last {
+                self.arm_and_strands(&now);
+                self.arm_and_fixtures(&now);
+                self.arm_and_itself(&now);
+            }
+        }
+    }
+
+    fn now(&self, k: usize) -> Now {
+        let moment = &self.leg.moments[k];
+        let cell = &self.job.cell;
+        let chain = &cell.robot.arm.chain;
+        let mut carriers = Vec::new();
+        chain.link_poses(&moment.q, &mut carriers);
+        let world_from_tip = chain.forward(&moment.q);
+        let world_from_tool = cell.world_from_tool(&world_from_tip);
+        let world_from_bed = cell.world_from_bed(&world_from_tip);
+        let part_from_world = (world_from_bed * self.job.bed_from_part).inverse();
+        Now {
+            time_s: moment.time_s,
+            at_m: moment.at_m,
+            carriers,
+            tip: part_from_world * (world_from_tool * Point::origin()),
+            world_from_tool,
+            world_from_bed,
+            part_from_world,
+        }
+    }
+
+    /// Records one measured clearance of two named bodies.
+    fn measured(&mut self, code: Code, clearance_m: f64, limit_m: f64, names: [&str; 2], now: &Now) {
+        if limit_m > 0.0 {
+            let bodies = names.map(str::to_owned);
+            let here = Nearest { clearance_m, bodies, time_s: now.time_s };
+            self.nearest = nearer(self.nearest.take(), Some(here));
+        }
+        let site = Site {
+            strand: self.leg.strand,
+            at_m: (self.leg.phase == Phase::Print).then_some(now.at_m),
+            phase: Some(self.leg.phase),
+            point: Some(now.tip),
+            ..Site::default()
+        };
+        // A clearance that may be negative is held against its limit by how much is missing of
+        // the full clearance, so that both kinds have a margin on one scale.
+        let full_m = self.job.limits.clearance_m;
+        let value_m = clearance_m + (full_m - limit_m);
+        // A check carries a lower limit, so the uncertainty that matters is that of the arm.
+        let accuracy_m = self.job.cell.robot.accuracy_m;
+        let measured = Interval::new(value_m, value_m - accuracy_m, value_m + accuracy_m);
+        let job = self.job;
+        let phase = self.leg.phase.word();
+        let strand = self.leg.strand;
+        self.findings.check(
+            crate::finding::Check {
+                code,
+                measured,
+                limit: full_m,
+                warn_limit: None,
+                site: site.between(names),
+                time_s: Some(now.time_s),
+            },
+            || words::clearance(job, code, clearance_m, limit_m, names, phase, strand),
+        );
+    }
+}
+
+mod words {
+    //! Sentences of clearance findings.
+
+    use crate::cell::Job;
+    use crate::finding::{Code, Words};
+
+    pub(super) fn clearance(
+        job: &Job,
+        code: Code,
+        clearance_m: f64,
+        limit_m: f64,
+        [body, other]: [&str; 2],
+        phase: &str,
+        strand: Option<usize>,
+    ) -> Words {
+        let of = strand.map_or_else(String::new, |strand| format!(" of strand `{}`", job.strands[strand].id));
+        let how = if clearance_m < 0.0 {
+            format!("{body} overlaps {other} by {:.2} mm", -clearance_m * 1e3)
+        } else {
+            format!("{body} comes within {:.2} mm of {other}", clearance_m * 1e3)
+        };
+        let missing_mm = (limit_m - clearance_m) * 1e3;
+        let hint = match code {
+            Code::C201 | Code::C202 => format!(
+                "print `{other}` after this strand, tilt the nozzle away, or move one of them by {missing_mm:.1} mm"
+            ),
+            Code::C204 => "tilt the nozzle to trail the strand, or print it in the other direction".to_owned(),
+            Code::C203 | Code::C206 => "turn the spin, or give the strand another posture".to_owned(),
+            _ => format!("move the part by {missing_mm:.1} mm, or tilt the nozzle away"),
+        };
+        Words { message: format!("{how} in the {phase}{of}"), hint }
+    }
+}

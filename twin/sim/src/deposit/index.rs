@@ -1,0 +1,84 @@
+//! A uniform grid over segments.
+
+use std::collections::HashMap;
+
+use super::Segment;
+use crate::pose::Point;
+
+/// Segments by the grid cells their boxes touch.
+///
+/// Building is O(n · c), a query O(c' + k): `c` cells a segment touches, `c'` cells a query
+/// touches, `k` segments found. The edge is the mean box, so `c` stays small in a frame of
+/// struts of like length.
+#[derive(Debug, Clone)]
+pub struct Index {
+    edge_m: f64,
+    cells: HashMap<[i32; 3], Vec<u32>>,
+    /// Lowest and highest occupied cell along each axis; queries are cut to it.
+    occupied: [[i32; 3]; 2],
+    n_segments: u32,
+}
+
+/// Edges are kept in this range: a grid of beads alone, or one of a single cell, helps nobody.
+const EDGE_M: std::ops::RangeInclusive<f64> = 2e-3..=0.1;
+
+impl Index {
+    /// Indexes `segments` by position in the slice.
+    pub fn new(segments: &[Segment]) -> Self {
+        let total_m: f64 = segments.iter().map(|s| (s.ends[1] - s.ends[0]).amax() + 2.0 * s.radius_m).sum();
+        let mean_m = total_m / segments.len().max(1) as f64;
+        let edge_m = mean_m.clamp(*EDGE_M.start(), *EDGE_M.end());
+        let mut index = Self {
+            edge_m,
+            cells: HashMap::new(),
+            occupied: [[i32::MAX; 3], [i32::MIN; 3]],
+            n_segments: segments.len() as u32,
+        };
+        for (k, segment) in segments.iter().enumerate() {
+            let (low, high) = segment.bounds();
+            let range = index.range(low, high);
+            for axis in 0..3 {
+                index.occupied[0][axis] = index.occupied[0][axis].min(range[0][axis]);
+                index.occupied[1][axis] = index.occupied[1][axis].max(range[1][axis]);
+            }
+            for cell in cells(range) {
+                index.cells.entry(cell).or_default().push(k as u32);
+            }
+        }
+        index
+    }
+
+    /// Segments that share a grid cell with the box, ascending, without repeats; all of them where
+    /// the box covers most of the deposit.
+    pub fn near(&self, low: Point, high: Point, found: &mut Vec<u32>) {
+        found.clear();
+        let [from, to] = self.range(low, high);
+        let cut = [
+            std::array::from_fn(|axis| from[axis].max(self.occupied[0][axis])),
+            std::array::from_fn(|axis| to[axis].min(self.occupied[1][axis])),
+        ];
+        let n_cells: f64 = (0..3).map(|axis| f64::from((cut[1][axis] - cut[0][axis] + 1).max(0))).product();
+        // A box that covers more cells than are occupied gets everything: the caller looks closer.
+        if n_cells > self.cells.len() as f64 {
+            found.extend(0..self.n_segments);
+            return;
+        }
+        for cell in cells(cut) {
+            if let Some(segments) = self.cells.get(&cell) {
+                found.extend_from_slice(segments);
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+    }
+
+    fn range(&self, low: Point, high: Point) -> [[i32; 3]; 2] {
+        let cell = |x: f64| (x / self.edge_m).floor() as i32;
+        [[low.x, low.y, low.z].map(cell), [high.x, high.y, high.z].map(cell)]
+    }
+}
+
+fn cells([l, h]: [[i32; 3]; 2]) -> impl Iterator<Item = [i32; 3]> {
+    (l[0]..=h[0])
+        .flat_map(move |x| (l[1]..=h[1]).flat_map(move |y| (l[2]..=h[2]).map(move |z| [x, y, z])))
+}

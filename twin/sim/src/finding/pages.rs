@@ -1,0 +1,29 @@
+//! One page per code, printed by `twin explain`.
+
+use super::register::Code;
+
+/// The page of a code.
+pub(super) fn page(code: Code) -> &'static str {
+    match code {
+        Code::R101 => include_str!("pages/R101.md"),
+        Code::R102 => include_str!("pages/R102.md"),
+        Code::R103 => include_str!("pages/R103.md"),
+        Code::R104 => include_str!("pages/R104.md"),
+        Code::R105 => include_str!("pages/R105.md"),
+        Code::R107 => include_str!("pages/R107.md"),
+        Code::C201 => include_str!("pages/C201.md"),
+        Code::C202 => include_str!("pages/C202.md"),
+        Code::C203 => include_str!("pages/C203.md"),
+        Code::C204 => include_str!("pages/C204.md"),
+        Code::C205 => include_str!("pages/C205.md"),
+        Code::C206 => include_str!("pages/C206.md"),
+        Code::P301 => include_str!("pages/P301.md"),
+        Code::P303 => include_str!("pages/P303.md"),
+        Code::P304 => include_str!("pages/P304.md"),
+        Code::P305 => include_str!("pages/P305.md"),
+        Code::P306 => include_str!("pages/P306.md"),
+        Code::S401 => include_str!("pages/S401.md"),
+        Code::S402 => include_str!("pages/S402.md"),
+        Code::S406 => include_str!("pages/S406.md"),
+    }
+}

@@ -1,0 +1,199 @@
+//! The register of finding codes: only what is implemented stands here.
+
+/// A family of codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Family {
+    /// Reach and motion.
+    Reach,
+    /// Clearance.
+    Clearance,
+    /// Process.
+    Process,
+    /// Structure.
+    Structure,
+    /// Program and controller.
+    Program,
+}
+
+impl Family {
+    /// All families, in the order of the score.
+    pub const ALL: [Self; 5] =
+        [Self::Reach, Self::Clearance, Self::Process, Self::Structure, Self::Program];
+
+    /// The letter its codes begin with.
+    pub fn letter(self) -> char {
+        match self {
+            Self::Reach => 'R',
+            Self::Clearance => 'C',
+            Self::Process => 'P',
+            Self::Structure => 'S',
+            Self::Program => 'E',
+        }
+    }
+
+    /// What it is about.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Reach => "reach and motion",
+            Self::Clearance => "clearance",
+            Self::Process => "process",
+            Self::Structure => "structure",
+            Self::Program => "program",
+        }
+    }
+}
+
+/// Which side of the limit is good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// Measured must not exceed the limit.
+    Upper,
+    /// Measured must not fall below the limit.
+    Lower,
+    /// The thing must not happen.
+    Forbidden,
+}
+
+/// A stable code. Its page is printed by `twin explain`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "`title` and `page` say what each one is")]
+pub enum Code {
+    R101,
+    R102,
+    R103,
+    R104,
+    R105,
+    R107,
+    C201,
+    C202,
+    C203,
+    C204,
+    C205,
+    C206,
+    P301,
+    P303,
+    P304,
+    P305,
+    P306,
+    S401,
+    S402,
+    S406,
+}
+
+impl Code {
+    /// Every code, in order.
+    pub const ALL: [Self; 20] = [
+        Self::R101,
+        Self::R102,
+        Self::R103,
+        Self::R104,
+        Self::R105,
+        Self::R107,
+        Self::C201,
+        Self::C202,
+        Self::C203,
+        Self::C204,
+        Self::C205,
+        Self::C206,
+        Self::P301,
+        Self::P303,
+        Self::P304,
+        Self::P305,
+        Self::P306,
+        Self::S401,
+        Self::S402,
+        Self::S406,
+    ];
+
+    /// The code as users write it.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::R101 => "R101",
+            Self::R102 => "R102",
+            Self::R103 => "R103",
+            Self::R104 => "R104",
+            Self::R105 => "R105",
+            Self::R107 => "R107",
+            Self::C201 => "C201",
+            Self::C202 => "C202",
+            Self::C203 => "C203",
+            Self::C204 => "C204",
+            Self::C205 => "C205",
+            Self::C206 => "C206",
+            Self::P301 => "P301",
+            Self::P303 => "P303",
+            Self::P304 => "P304",
+            Self::P305 => "P305",
+            Self::P306 => "P306",
+            Self::S401 => "S401",
+            Self::S402 => "S402",
+            Self::S406 => "S406",
+        }
+    }
+
+    /// The code of this name, if there is one.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|code| code.as_str().eq_ignore_ascii_case(name))
+    }
+
+    /// The family it belongs to.
+    pub fn family(self) -> Family {
+        let letter = self.as_str().chars().next();
+        Family::ALL.into_iter().find(|family| Some(family.letter()) == letter).expect("every letter is a family")
+    }
+
+    /// What it is, in a few words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::R101 => "pose out of reach",
+            Self::R102 => "too near a joint limit",
+            Self::R103 => "too near a singularity",
+            Self::R104 => "branch flip inside a strand",
+            Self::R105 => "joint too slow for the print speed",
+            Self::R107 => "TCP leaves the strand",
+            Self::C201 => "nozzle too near printed strands",
+            Self::C202 => "tool too near printed strands",
+            Self::C203 => "arm too near printed strands",
+            Self::C204 => "nozzle too near the strand in progress",
+            Self::C205 => "tool, arm or bed too near bed, form or fixtures",
+            Self::C206 => "arm or tool too near the arm itself",
+            Self::P301 => "strand sags behind the nozzle",
+            Self::P303 => "set strand sags under its own weight",
+            Self::P304 => "shrinkage moves the free end",
+            Self::P305 => "core of the strand stays uncured",
+            Self::P306 => "strand sets too far behind the nozzle",
+            Self::S401 => "node is not where the nozzle expects it",
+            Self::S402 => "strand printed on nothing",
+            Self::S406 => "finished part gives way under its loads",
+        }
+    }
+
+    /// Which side of the limit is good.
+    pub fn bound(self) -> Bound {
+        match self {
+            Self::R101 | Self::R104 | Self::S402 => Bound::Forbidden,
+            Self::R102
+            | Self::C201
+            | Self::C202
+            | Self::C203
+            | Self::C204
+            | Self::C205
+            | Self::C206 => Bound::Lower,
+            _ => Bound::Upper,
+        }
+    }
+
+    /// Unit of measured value and limit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::R101 | Self::R104 | Self::S402 | Self::R103 | Self::R105 => "1",
+            Self::R102 => "rad",
+            _ => "m",
+        }
+    }
+
+    /// The page printed by `twin explain`.
+    pub fn page(self) -> &'static str {
+        super::pages::page(self)
+    }
+}

@@ -1,0 +1,345 @@
+//! Strands and contacts to nodes and members.
+//!
+//! A strand becomes members between its *stations*: the corners of its polyline as planned (at
+//! their places as printed), its contacts, its ends. Ends within half a bead of each other become one node, as do contacts whose axes
+//! meet; other contacts become links, short weightless members with the section of the bead.
+
+use crate::cell::{Job, Join, On};
+use crate::deposit::{Contact, Deposit};
+use crate::pose::Point;
+use crate::structure::{Elastic, Frame, Member, Section, Strength, Support};
+
+/// What the structure needs to know about a strand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrandLaw {
+    /// Diameter of the set bead, m.
+    pub diameter_m: f64,
+    /// Share of the section that carries (uncured cores do not).
+    pub area_fraction: f64,
+    /// Share of the bending stiffness that is there.
+    pub stiffness_fraction: f64,
+    /// Young's modulus, Pa.
+    pub e_pa: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Density, kg/m³.
+    pub density_kg_m3: f64,
+    /// Strain the strand would still have if both its ends were free; shrinkage is negative.
+    pub strain: f64,
+    /// Strength along the strand, Pa.
+    pub strength_pa: f64,
+    /// Strength of a bond over that of the strand.
+    pub bond_fraction: f64,
+}
+
+impl StrandLaw {
+    fn section(&self) -> Section {
+        let full = Section::circle(self.diameter_m);
+        Section {
+            area_m2: full.area_m2 * self.area_fraction,
+            iy_m4: full.iy_m4 * self.stiffness_fraction,
+            iz_m4: full.iz_m4 * self.stiffness_fraction,
+            j_m4: full.j_m4 * self.stiffness_fraction,
+            ..full
+        }
+        .sheared(Section::cowper_circle(self.poisson))
+    }
+
+    fn elastic(&self) -> Elastic {
+        Elastic::isotropic(self.e_pa, self.poisson)
+    }
+}
+
+/// The frame of a print.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// Nodes and members, members in order of birth.
+    pub frame: Frame,
+    /// Number of members once so many strands are printed; one more entry than strands.
+    pub born: Vec<usize>,
+    /// First and last node of each strand, in printing order.
+    pub ends: Vec<[usize; 2]>,
+    /// Strand (by order) of each member.
+    pub member_order: Vec<usize>,
+    /// Nodes held by the bed with the order of the strand that brings them.
+    pub grounded: Vec<(usize, usize)>,
+    /// Nodes held by a form: node, order, form.
+    pub formed: Vec<(usize, usize, usize)>,
+}
+
+impl Built {
+    /// Supports once `n_printed` strands are there and the forms still hold as given.
+    pub fn supports(&self, n_printed: usize, held_forms: &[bool]) -> Vec<Support> {
+        let on_bed = self.grounded.iter().filter(|(_, order)| *order < n_printed).map(|(node, _)| *node);
+        let on_form = self
+            .formed
+            .iter()
+            .filter(|(_, order, form)| *order < n_printed && held_forms[*form])
+            .map(|(node, _, _)| *node);
+        let mut nodes: Vec<usize> = on_bed.chain(on_form).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes.into_iter().map(Support::clamped).collect()
+    }
+
+    /// The frame without initial strains.
+    pub(super) fn weightless_strain(&self) -> Frame {
+        self.with_members(|member| Member { initial_strain: 0.0, ..*member })
+    }
+
+    /// The frame with members changed one by one.
+    pub(super) fn with_members(&self, change: impl Fn(&Member) -> Member) -> Frame {
+        let members = self.frame.members().iter().map(change).collect();
+        Frame::new(self.frame.nodes().to_vec(), members).expect("a sound frame with sound constants")
+    }
+
+    /// Strength of each member.
+    pub fn strengths(&self, laws: &[StrandLaw]) -> Vec<Strength> {
+        let strength = |order: &usize| Strength {
+            tension_pa: laws[*order].strength_pa,
+            compression_pa: laws[*order].strength_pa,
+            bond_fraction: laws[*order].bond_fraction,
+        };
+        self.member_order.iter().map(strength).collect()
+    }
+
+    /// The earliest strand (by order) that has a member at this node.
+    pub fn strand_at(&self, node: usize) -> Option<usize> {
+        let at = |member: &Member| member.ends.contains(&node);
+        self.frame.members().iter().position(at).map(|member| self.member_order[member])
+    }
+}
+
+/// Stations nearer than this share of a radius are one.
+const SAME_SHARE: f64 = 0.2;
+/// Turn at a vertex below which it is no station, rad.
+const STRAIGHT_RAD: f64 = 1e-6;
+
+/// A contact as seen from one of its two strands.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    contact: usize,
+    side: usize,
+    at_m: f64,
+}
+
+/// Builds the frame of a whole print.
+pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandLaw]) -> Built {
+    let mut touches: Vec<Vec<Touch>> = vec![Vec::new(); deposit.strands.len()];
+    for (contact, each) in contacts.iter().enumerate() {
+        if is_refused(job, deposit, each) {
+            continue;
+        }
+        for side in 0..2 {
+            touches[each.orders[side]].push(Touch { contact, side, at_m: each.at_m[side] });
+        }
+    }
+    let mut builder = Builder {
+        job,
+        deposit,
+        laws,
+        contacts,
+        contact_nodes: vec![[None; 2]; contacts.len()],
+        nodes: Vec::new(),
+        members: Vec::new(),
+        built_ends: Vec::new(),
+        member_order: Vec::new(),
+        born: vec![0],
+        grounded: Vec::new(),
+        formed: Vec::new(),
+    };
+    for (order, touches) in touches.iter_mut().enumerate() {
+        touches.sort_by(|a, b| a.at_m.total_cmp(&b.at_m).then(a.contact.cmp(&b.contact)));
+        builder.strand(order, touches);
+    }
+    let frame = Frame::new(builder.nodes, builder.members).expect("stations are apart and laws are sound");
+    Built {
+        frame,
+        born: builder.born,
+        ends: builder.built_ends,
+        member_order: builder.member_order,
+        grounded: builder.grounded,
+        formed: builder.formed,
+    }
+}
+
+/// Whether the author said that the strand's end there is free.
+fn is_refused(job: &Job, deposit: &Deposit, contact: &Contact) -> bool {
+    (0..2).any(|side| {
+        let printed = &deposit.strands[contact.orders[side]];
+        let strand = &job.strands[printed.strand];
+        let length_m = printed.at_m.last().copied().unwrap_or(0.0);
+        let near = 2.0 * printed.radius_m;
+        let (start, end) = (strand.start.join, strand.end.join);
+        (start == Some(Join::Free) && contact.at_m[side] < near)
+            || (end == Some(Join::Free) && length_m - contact.at_m[side] < near && side == 0)
+    })
+}
+
+struct Builder<'a> {
+    job: &'a Job,
+    deposit: &'a Deposit,
+    laws: &'a [StrandLaw],
+    contacts: &'a [Contact],
+    /// Node of each contact on each of its sides, once known.
+    contact_nodes: Vec<[Option<usize>; 2]>,
+    nodes: Vec<Point>,
+    members: Vec<Member>,
+    built_ends: Vec<[usize; 2]>,
+    member_order: Vec<usize>,
+    born: Vec<usize>,
+    grounded: Vec<(usize, usize)>,
+    formed: Vec<(usize, usize, usize)>,
+}
+
+impl Builder<'_> {
+    fn strand(&mut self, order: usize, touches: &[Touch]) {
+        let stations = self.stations(order, touches);
+        let mut nodes: Vec<usize> = Vec::with_capacity(stations.len());
+        for station in &stations {
+            let node = self.node(order, station, nodes.last().copied());
+            nodes.push(node);
+        }
+        let law = &self.laws[order];
+        let member = |ends: [usize; 2]| Member {
+            ends,
+            section: law.section(),
+            elastic: law.elastic(),
+            density_kg_m3: law.density_kg_m3,
+            initial_strain: law.strain,
+            side: nalgebra::Vector3::zeros(),
+            strand: self.deposit.strands[order].strand,
+        };
+        let members: Vec<Member> = nodes
+            .windows(2)
+            .filter(|pair| pair[0] != pair[1] && self.nodes[pair[0]] != self.nodes[pair[1]])
+            .map(|pair| member([pair[0], pair[1]]))
+            .collect();
+        self.member_order.extend(members.iter().map(|_| order));
+        self.members.extend(members);
+        self.links(order, touches);
+        self.hold(order, &nodes);
+        self.born.push(self.members.len());
+        self.built_ends.push([nodes[0], nodes[nodes.len() - 1]]);
+    }
+
+    /// Corners, contacts and ends by arc length, those that are nearly one merged.
+    fn stations(&self, order: usize, touches: &[Touch]) -> Vec<Station> {
+        let printed = &self.deposit.strands[order];
+        let same_m = SAME_SHARE * printed.radius_m;
+        let last = printed.as_printed.len() - 1;
+        let mut stations: Vec<Station> = Vec::new();
+        for (k, point) in printed.as_printed.iter().enumerate() {
+            let corner = k == 0 || k == last || {
+                let planned = &printed.as_planned;
+                let (a, b) = (planned[k] - planned[k - 1], planned[k + 1] - planned[k]);
+                a.angle(&b) > STRAIGHT_RAD
+            };
+            if corner {
+                stations.push(Station { at_m: printed.at_m[k], point: *point, touches: Vec::new() });
+            }
+        }
+        for touch in touches {
+            let nearest = stations
+                .iter()
+                .position(|station| (station.at_m - touch.at_m).abs() <= self.snap_m(order, station, same_m));
+            if let Some(k) = nearest {
+                stations[k].touches.push(*touch);
+            } else {
+                let after = stations.partition_point(|station| station.at_m < touch.at_m);
+                let point = self.contacts[touch.contact].points[touch.side];
+                stations.insert(after, Station { at_m: touch.at_m, point, touches: vec![*touch] });
+            }
+        }
+        stations
+    }
+
+    /// How near a contact must be to a station to be one with it: half a bead at the ends.
+    fn snap_m(&self, order: usize, station: &Station, same_m: f64) -> f64 {
+        let printed = &self.deposit.strands[order];
+        let length_m = printed.at_m[printed.at_m.len() - 1];
+        let is_end = station.at_m == 0.0 || station.at_m == length_m;
+        if is_end { printed.radius_m.max(same_m) } else { same_m }
+    }
+
+    /// The node of a station: that of the other side of a contact whose axes meet, or a new one.
+    fn node(&mut self, order: usize, station: &Station, before: Option<usize>) -> usize {
+        let radius_m = self.deposit.strands[order].radius_m;
+        let mut merged = None;
+        for touch in &station.touches {
+            if let Some(other) = self.contact_nodes[touch.contact][1 - touch.side] {
+                let apart_m = (self.nodes[other] - station.point).norm();
+                if merged.is_none() && apart_m <= radius_m && Some(other) != before {
+                    merged = Some(other);
+                }
+            }
+        }
+        let node = merged.unwrap_or_else(|| {
+            self.nodes.push(station.point);
+            self.nodes.len() - 1
+        });
+        for touch in &station.touches {
+            self.contact_nodes[touch.contact][touch.side] = Some(node);
+        }
+        node
+    }
+
+    /// Links for contacts of this strand with earlier ones whose nodes did not become one.
+    fn links(&mut self, order: usize, touches: &[Touch]) {
+        let law = &self.laws[order];
+        for touch in touches {
+            let [Some(a), Some(b)] = self.contact_nodes[touch.contact] else { continue };
+            let known = |member: &Member| member.ends == [a, b] || member.ends == [b, a];
+            let length_m = (self.nodes[a] - self.nodes[b]).norm();
+            let recent = self.members.iter().rev().take(8 * touches.len() + 8).any(known);
+            if a == b || recent || length_m <= 0.0 {
+                continue;
+            }
+            self.members.push(Member {
+                ends: [a, b],
+                section: law.section(),
+                elastic: law.elastic(),
+                density_kg_m3: 0.0,
+                initial_strain: 0.0,
+                side: nalgebra::Vector3::zeros(),
+                strand: self.deposit.strands[order].strand,
+            });
+            self.member_order.push(order);
+        }
+    }
+
+    /// Nodes that the bed or a form holds.
+    fn hold(&mut self, order: usize, nodes: &[usize]) {
+        let printed = &self.deposit.strands[order];
+        let strand = &self.job.strands[printed.strand];
+        match strand.on {
+            On::Bed => self.grounded.extend(nodes.iter().map(|&node| (node, order))),
+            On::Form(form) => self.formed.extend(nodes.iter().map(|&node| (node, order, form))),
+            On::Air => {}
+        }
+        let ends = [(strand.start.join, nodes[0]), (strand.end.join, nodes[nodes.len() - 1])];
+        for (join, node) in ends {
+            match join {
+                Some(Join::Bed) => self.grounded.push((node, order)),
+                Some(Join::Form(form)) => self.formed.push((node, order, form)),
+                Some(Join::Free | Join::Strand(_)) => {}
+                None => {
+                    let height_m = (self.job.bed_from_part * self.nodes[node]).z;
+                    if height_m <= super::build::TOUCHES_BED * printed.radius_m {
+                        self.grounded.push((node, order));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// An end whose axis is lower over the bed than this many radii touches it.
+const TOUCHES_BED: f64 = 1.1;
+
+#[derive(Debug, Clone)]
+struct Station {
+    at_m: f64,
+    point: Point,
+    touches: Vec<Touch>,
+}

@@ -1,0 +1,156 @@
+//! The one entry: a resolved job in, everything the twin can say about it out.
+//!
+//! [`preflight`] reads top to bottom as the path of the data.
+
+mod clear;
+mod making;
+mod totals;
+mod view;
+
+pub use clear::Cleared;
+pub use making::StrandResult;
+pub use totals::{Assumption, Totals};
+pub use view::scene;
+
+use crate::cell::Job;
+use crate::collision::{self, Nearest};
+use crate::deposit::{self, Contact, Deposit};
+use crate::finding::{Finding, Findings, Scores, Verdict};
+use crate::growth::{self, Growth, Printed};
+use crate::motion::{self, Motion, StrandMotion};
+use crate::structure::SolveError;
+use crate::toolpath::{self, Path};
+
+/// What the twin is doing, for a progress bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// Sampling strands.
+    Toolpath,
+    /// Searching postures, timing the program.
+    Motion,
+    /// Heat or light, cure, sag, shrinkage of each strand.
+    Process,
+    /// Solving every stage of the frame.
+    Structure,
+    /// Measuring clearance.
+    Collision,
+}
+
+impl Step {
+    /// All steps in order.
+    pub const ALL: [Self; 5] =
+        [Self::Toolpath, Self::Motion, Self::Process, Self::Structure, Self::Collision];
+
+    /// The word for it on a screen.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Toolpath => "sampling strands",
+            Self::Motion => "searching postures",
+            Self::Process => "printing strands",
+            Self::Structure => "solving stages",
+            Self::Collision => "measuring clearance",
+        }
+    }
+}
+
+/// A job with everything that was found in it. Only [`preflight`] makes one.
+#[derive(Debug, Clone)]
+pub struct Preflight {
+    job: Job,
+    /// Strands by arc length, in the job's order.
+    pub paths: Vec<Path>,
+    /// The joint path of the program.
+    pub motion: Motion,
+    /// What the arm does along each strand, in the job's order.
+    pub strand_motion: Vec<Option<StrandMotion>>,
+    /// What was printed.
+    pub deposit: Deposit,
+    /// Where beads touch.
+    pub contacts: Vec<Contact>,
+    /// What became of each strand, in printing order.
+    pub strands: Vec<StrandResult>,
+    /// The frame by stages, landings and loads.
+    pub growth: Growth,
+    /// Smallest clearance measured.
+    pub nearest: Option<Nearest>,
+    /// Times, lengths and mass.
+    pub totals: Totals,
+    /// What the answer rests on.
+    pub assumptions: Vec<Assumption>,
+    findings: Vec<Finding>,
+    scores: Scores,
+    verdict: Verdict,
+}
+
+impl Preflight {
+    /// The job.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// The findings by severity, then time, then code.
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// Score of the job and of each family.
+    pub fn scores(&self) -> Scores {
+        self.scores
+    }
+
+    /// Whether anything stops the job.
+    pub fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+}
+
+/// Runs the twin on a job; `progress` is told each step as it begins.
+///
+/// The same job gives the same answer on any number of threads.
+///
+/// # Errors
+/// A frame too large to solve. Everything else that is wrong with a job is a finding.
+pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, SolveError> {
+    let mut findings = Findings::default();
+
+    progress(Step::Toolpath);
+    let paths = toolpath::paths(&job);
+
+    progress(Step::Motion);
+    let motion = motion::plan(&job, &paths);
+    let strand_motion = motion::check(&job, &paths, &motion, &mut findings);
+
+    progress(Step::Process);
+    let strands = making::make(&job, &paths, &motion, &mut findings);
+    let deposit = making::as_printed(&job, &motion, &strands);
+    let contacts = deposit::contacts(&deposit);
+
+    progress(Step::Structure);
+    let laws: Vec<growth::StrandLaw> = strands.iter().map(|strand| making::law(&job, strand)).collect();
+    let printed = Printed { deposit: &deposit, contacts: &contacts, laws: &laws, motion: &motion };
+    let growth = growth::grow(&job, &printed, &mut findings)?;
+
+    progress(Step::Collision);
+    let nearest = collision::check(&job, &motion, &deposit, &contacts, &mut findings);
+
+    let totals = totals::totals(&job, &motion, &paths, &strands);
+    let assumptions = totals::assumptions(&job, &growth);
+    let (scores, verdict) = (findings.scores(), findings.verdict());
+    let findings = findings.sorted();
+    Ok(Preflight {
+        job,
+        paths,
+        motion,
+        strand_motion,
+        deposit,
+        contacts,
+        strands,
+        growth,
+        nearest,
+        totals,
+        assumptions,
+        findings,
+        scores,
+        verdict,
+    })
+}

@@ -1,0 +1,182 @@
+//! A strand's temperature and stiffness against its age.
+
+use crate::interval::Interval;
+
+use super::bead::drawn_diameter_m;
+use super::cure::{gel_time_s, modulus_at_dose_pa};
+use super::heat::{
+    Cooling, cooling_rate_per_s, effective_h_w_m2k, modulus_through_glass_pa, total_h_w_m2k,
+};
+use super::material::{Material, Photopolymer, Setting, Thermoplastic};
+use super::strand::StrandInput;
+
+/// Error of the heat transfer correlations on thin strands: case NUSSELT-THIN.
+const CORRELATION_SPREAD: f64 = 0.2;
+
+/// Which end of the uncertain inputs: the middle, what makes a strand set fast and sag little, or the
+/// opposite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Corner {
+    /// Nominal values.
+    Nominal,
+    /// What sets fast.
+    Fast,
+    /// What sets slowly.
+    Slow,
+}
+
+impl Corner {
+    /// The end of an interval that holds for a quantity that makes a strand stiffer the greater it is.
+    pub fn helpful(self, quantity: Interval) -> f64 {
+        match self {
+            Self::Nominal => quantity.nominal,
+            Self::Fast => quantity.high,
+            Self::Slow => quantity.low,
+        }
+    }
+
+    /// The same for a quantity that makes it softer or heavier the greater it is.
+    pub fn harmful(self, quantity: Interval) -> f64 {
+        match self {
+            Self::Nominal => quantity.nominal,
+            Self::Fast => quantity.low,
+            Self::Slow => quantity.high,
+        }
+    }
+
+    /// A law on all three corners, as an interval.
+    pub fn interval(law: impl Fn(Self) -> f64) -> Interval {
+        Interval::new(law(Self::Nominal), law(Self::Fast), law(Self::Slow))
+    }
+}
+
+/// Temperature of the strand against age at a corner.
+///
+/// Corners: speed of the jet, specific heat, and the correlations' own ±20 %. Heat transfer is taken
+/// at the surface temperature midway between nozzle and glass transition; nozzle temperature, emissivity
+/// and conductivity at their nominal values.
+pub fn cooling(
+    input: &StrandInput,
+    material: &Material,
+    plastic: &Thermoplastic,
+    corner: Corner,
+) -> Cooling {
+    let diameter_m = drawn_diameter_m(input.flow_m3_s, input.speed_m_s);
+    let air_k = input.air.temperature_k;
+    let surface_k = 0.5 * (plastic.extrusion_k.nominal + plastic.glass_k.nominal);
+    let spread =
+        corner.helpful(Interval::new(1.0, 1.0 - CORRELATION_SPREAD, 1.0 + CORRELATION_SPREAD));
+    let rate_per_s = |air_m_s: f64| {
+        let emissivity = material.emissivity.nominal;
+        let h = spread * total_h_w_m2k(diameter_m, surface_k, air_k, air_m_s, emissivity);
+        let effective = effective_h_w_m2k(h, diameter_m, material.k_w_mk.nominal);
+        let cp = corner.harmful(material.cp_j_kgk);
+        cooling_rate_per_s(effective, plastic.melt_density_kg_m3.nominal, cp, diameter_m)
+    };
+    let room_rate_per_s = rate_per_s(input.air.room_m_s);
+    let (jet_rate_per_s, jet_until_s) = match input.air.jet {
+        Some(jet) => {
+            let jet_m_s = corner.helpful(jet.speed_m_s).max(input.air.room_m_s);
+            (rate_per_s(jet_m_s), (jet.reach_m / input.speed_m_s).max(0.0))
+        }
+        None => (room_rate_per_s, 0.0),
+    };
+    Cooling {
+        start_k: plastic.extrusion_k.nominal,
+        air_k,
+        jet_rate_per_s,
+        jet_until_s,
+        room_rate_per_s,
+    }
+}
+
+/// Age at which light sets a strand at a corner, s: shadow, then `Ec / I`; infinite without light enough.
+///
+/// Corners: lamp intensity and critical exposure. A strand whose whole passage gives less than `Ec` never sets.
+pub fn light_set_s(input: &StrandInput, resin: &Photopolymer, corner: Corner) -> f64 {
+    let Some(ring) = input.light else { return f64::INFINITY };
+    let irradiance = ring.irradiance_w_m2(corner.helpful(ring.intensity_w_sr));
+    let gel_s = gel_time_s(corner.harmful(resin.critical_exposure_j_m2), irradiance);
+    if gel_s * input.speed_m_s <= ring.lit_length_m() {
+        ring.shadow_m / input.speed_m_s + gel_s
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// A strand's nominal temperature and modulus against its age.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    air_k: f64,
+    law: Law,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Law {
+    Heat { cooling: Cooling, glassy_pa: f64, plateau_pa: f64, glass_k: f64 },
+    Light { shadow_s: f64, lit_s: f64, irradiance: f64, critical: f64, gel_pa: f64, set_pa: f64 },
+    Clock { set_s: f64, set_pa: f64 },
+}
+
+impl History {
+    /// The history of a strand, at nominal values.
+    pub fn new(input: &StrandInput, material: &Material) -> Self {
+        let set_pa = material.youngs_modulus_pa.nominal;
+        let law = match &material.setting {
+            Setting::Thermoplastic(plastic) => Law::Heat {
+                cooling: cooling(input, material, plastic, Corner::Nominal),
+                glassy_pa: set_pa,
+                plateau_pa: plastic.plateau_modulus_pa.nominal,
+                glass_k: plastic.glass_k.nominal,
+            },
+            Setting::Photopolymer(resin) => {
+                let ring = input.light.as_ref();
+                Law::Light {
+                    shadow_s: ring.map_or(0.0, |r| r.shadow_m) / input.speed_m_s,
+                    lit_s: ring.map_or(0.0, |r| r.lit_length_m()) / input.speed_m_s,
+                    irradiance: ring.map_or(0.0, |r| r.irradiance_w_m2(r.intensity_w_sr.nominal)),
+                    critical: resin.critical_exposure_j_m2.nominal,
+                    gel_pa: resin.gel_modulus_pa.nominal,
+                    set_pa,
+                }
+            }
+            Setting::TwoPart(mix) => Law::Clock { set_s: mix.set_time_s.nominal, set_pa },
+        };
+        Self { air_k: input.air.temperature_k, law }
+    }
+
+    /// Mean temperature of a section at an age, K; resins are taken at air temperature (their heat of
+    /// reaction is left out).
+    pub fn temperature_k(&self, age_s: f64) -> f64 {
+        match &self.law {
+            Law::Heat { cooling, .. } => cooling.temperature_k(age_s),
+            Law::Light { .. } | Law::Clock { .. } => self.air_k,
+        }
+    }
+
+    /// Young's modulus at an age, Pa, of what is solid; zero where nothing is.
+    ///
+    /// Thermoplastic: through the glass transition to the rubbery plateau, never zero. Photopolymer: by
+    /// dose from the gel point on, of the surface. Two-part: all at the set time.
+    pub fn modulus_pa(&self, age_s: f64) -> f64 {
+        match self.law {
+            Law::Heat { cooling, glassy_pa, plateau_pa, glass_k } => modulus_through_glass_pa(
+                glassy_pa,
+                plateau_pa,
+                cooling.temperature_k(age_s),
+                glass_k,
+            ),
+            Law::Light { shadow_s, lit_s, irradiance, critical, gel_pa, set_pa } => {
+                let dose = irradiance * (age_s - shadow_s).max(0.0).min(lit_s);
+                modulus_at_dose_pa(gel_pa, set_pa, dose, critical, irradiance * lit_s)
+            }
+            Law::Clock { set_s, set_pa } => {
+                if age_s < set_s {
+                    0.0
+                } else {
+                    set_pa
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,323 @@
+//! One strand through all laws.
+
+use crate::interval::Interval;
+
+use super::bead::{cold_diameter_m, draw_ratio, drawn_diameter_m, overfeed_strain};
+use super::cure::{
+    cure_depth_m, set_distance_m, shell_area_fraction, shell_stiffness_fraction, uncured_core_m,
+};
+use super::heat::modulus_through_glass_pa;
+use super::history::{Corner, cooling, light_set_s};
+use super::light::LightRing;
+use super::material::{Material, Photopolymer, Setting};
+use super::sag::{SetBeam, slack_sag_m};
+use super::shrinkage::{CureRun, cooling_end_miss_m, free_strain};
+use super::soft::nozzle_sag;
+
+/// A strand as it is printed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrandInput {
+    /// Length of the whole strand, m.
+    pub length_m: f64,
+    /// Longest unsupported span: between joined ends, or from the last hold to the free end, m.
+    pub span_m: f64,
+    /// Speed of the nozzle, m/s.
+    pub speed_m_s: f64,
+    /// Flow out of the nozzle, m³/s.
+    pub flow_m3_s: f64,
+    /// Bore of the nozzle, m.
+    pub nozzle_diameter_m: f64,
+    /// Diameter of a free strand over the bore.
+    pub swell: Interval,
+    /// Largest component of gravity across the strand, m/s².
+    pub gravity_across_m_s2: f64,
+    /// What holds it.
+    pub ends: Ends,
+    /// Time the nozzle waits at the end, s.
+    pub dwell_s: f64,
+    /// The air around it.
+    pub air: Air,
+    /// The light on it.
+    pub light: Option<LightRing>,
+}
+
+/// What holds a strand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// Joined at both ends.
+    BothHeld,
+    /// Joined where it begins; the far end is free when the nozzle leaves.
+    StartHeld,
+    /// Lies on bed or form.
+    Resting,
+}
+
+/// The air around a strand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Its temperature, K.
+    pub temperature_k: f64,
+    /// Draught in the room, m/s.
+    pub room_m_s: f64,
+    /// The jet that travels with the nozzle.
+    pub jet: Option<Jet>,
+}
+
+/// A jet of air that travels with the nozzle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jet {
+    /// Speed at the strand, m/s.
+    pub speed_m_s: Interval,
+    /// Length of strand behind the nozzle that it reaches, m.
+    pub reach_m: f64,
+}
+
+/// What becomes of a strand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrandOutcome {
+    /// Diameter once set, m.
+    pub bead_diameter_m: Interval,
+    /// Diameter as drawn, m.
+    pub hot_diameter_m: f64,
+    /// Nozzle speed over the speed of a free strand.
+    pub draw_ratio: Interval,
+    /// Age at which it is set (thermoplastic: flow arrest), s; infinite if it never is.
+    pub set_time_s: Interval,
+    /// How far behind the nozzle that is, m; infinite if never.
+    pub set_distance_m: Interval,
+    /// Sag A, behind the nozzle, m.
+    pub sag_nozzle_m: Interval,
+    /// Whether sag A is inside linear theory at its nominal value.
+    pub sag_linear: bool,
+    /// Sag B, of a strand longer than its chord, m.
+    pub sag_slack_m: Interval,
+    /// Sag C, of the set strand under its own weight, m; infinite where nothing is set and
+    /// both ends are held.
+    pub sag_set_m: Interval,
+    /// How far the end is pulled back after the nozzle has left it, m.
+    pub end_miss_m: Interval,
+    /// Radius left uncured, m; photopolymers only.
+    pub uncured_core_m: Option<Interval>,
+    /// Share of the area that is solid.
+    pub area_fraction: Interval,
+    /// Share of the bending stiffness that is solid.
+    pub stiffness_fraction: Interval,
+    /// Young's modulus of what is solid, at air temperature, Pa.
+    pub youngs_modulus_pa: Interval,
+    /// Linear strain it still wants to lose once set; positive is shorter.
+    pub free_strain: Interval,
+    /// Laws used.
+    pub laws: Vec<&'static str>,
+}
+
+/// One strand through all laws; deterministic, microseconds.
+///
+/// Intervals are corners, all adverse inputs together (no probability is meant): those of
+/// [`nozzle_sag`] for sag A; swell and contraction for B; modulus, density, cured shell and end fixity
+/// (clamped to hinged) for C; expansion, set temperature and cooling, or shrinkage and gel time, for the
+/// end miss; penetration, critical exposure and lamp for the shell. Inputs out of their domain (speed or flow not positive)
+/// give numbers that are not finite, never a panic.
+pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
+    let hot_m = drawn_diameter_m(input.flow_m3_s, input.speed_m_s);
+    let fresh = material.fresh_density_kg_m3();
+    let bead_diameter_m = match material.setting {
+        Setting::TwoPart(_) => Interval::exact(hot_m),
+        Setting::Thermoplastic(_) | Setting::Photopolymer(_) => {
+            let set = material.density_kg_m3;
+            Interval::new(
+                cold_diameter_m(hot_m, fresh.nominal, set.nominal),
+                cold_diameter_m(hot_m, fresh.low, set.high),
+                cold_diameter_m(hot_m, fresh.high, set.low),
+            )
+        }
+    };
+    let ratio =
+        |swell| draw_ratio(input.flow_m3_s, input.speed_m_s, input.nozzle_diameter_m, swell);
+    let draw_ratio = input.swell.map(ratio);
+    let set_time_s = set_time_s(input, material);
+    let sag = nozzle_sag(input, material);
+    let free_strain = free_strain(material, input.air.temperature_k);
+    let shell = shell(input, material, bead_diameter_m.nominal / 2.0);
+    let youngs_modulus_pa = set_modulus_pa(input, material);
+    let stiffness = Interval {
+        nominal: youngs_modulus_pa.nominal * shell.stiffness.nominal,
+        low: youngs_modulus_pa.low * shell.stiffness.low,
+        high: youngs_modulus_pa.high * shell.stiffness.high,
+    };
+    StrandOutcome {
+        bead_diameter_m,
+        hot_diameter_m: hot_m,
+        draw_ratio,
+        set_time_s,
+        set_distance_m: set_time_s.map(|time_s| set_distance_m(0.0, input.speed_m_s, time_s)),
+        sag_nozzle_m: sag.offset_m,
+        sag_linear: sag.linear,
+        sag_slack_m: slack_m(input, draw_ratio, free_strain),
+        sag_set_m: sag_set_m(input, material, bead_diameter_m.nominal, stiffness),
+        end_miss_m: end_miss_m(input, material),
+        uncured_core_m: shell.core_m,
+        area_fraction: shell.area,
+        stiffness_fraction: shell.stiffness,
+        youngs_modulus_pa,
+        free_strain,
+        laws: laws(input, material),
+    }
+}
+
+fn set_time_s(input: &StrandInput, material: &Material) -> Interval {
+    Corner::interval(|corner| match &material.setting {
+        Setting::Thermoplastic(plastic) => cooling(input, material, plastic, corner)
+            .time_to_s(corner.helpful(plastic.flow_arrest_k)),
+        Setting::Photopolymer(resin) => light_set_s(input, resin, corner),
+        Setting::TwoPart(mix) => corner.harmful(mix.set_time_s),
+    })
+}
+
+fn slack_m(input: &StrandInput, draw_ratio: Interval, free_strain: Interval) -> Interval {
+    if input.ends != Ends::BothHeld {
+        return Interval::exact(0.0);
+    }
+    let sag = |ratio, strain| slack_sag_m(input.span_m, overfeed_strain(ratio) - strain);
+    Interval::new(
+        sag(draw_ratio.nominal, free_strain.nominal),
+        sag(draw_ratio.high, free_strain.high),
+        sag(draw_ratio.low, free_strain.low),
+    )
+}
+
+fn set_modulus_pa(input: &StrandInput, material: &Material) -> Interval {
+    let set = material.youngs_modulus_pa;
+    let Setting::Thermoplastic(plastic) = &material.setting else { return set };
+    Corner::interval(|corner| {
+        modulus_through_glass_pa(
+            corner.helpful(set),
+            corner.helpful(plastic.plateau_modulus_pa),
+            input.air.temperature_k,
+            corner.helpful(plastic.glass_k),
+        )
+    })
+}
+
+/// Solid part of the section.
+struct Shell {
+    area: Interval,
+    stiffness: Interval,
+    core_m: Option<Interval>,
+}
+
+fn shell(input: &StrandInput, material: &Material, radius_m: f64) -> Shell {
+    let Setting::Photopolymer(resin) = &material.setting else {
+        let whole = Interval::exact(1.0);
+        return Shell { area: whole, stiffness: whole, core_m: None };
+    };
+    let depth = Corner::interval(|corner| depth_m(input, resin, corner));
+    Shell {
+        area: depth.map(|d| shell_area_fraction(d, radius_m)),
+        stiffness: depth.map(|d| shell_stiffness_fraction(d, radius_m)),
+        core_m: Some(depth.map(|d| uncured_core_m(d, radius_m))),
+    }
+}
+
+/// Depth cured once the ring has passed, m; a dwell adds nothing but at the end and is left out.
+fn depth_m(input: &StrandInput, resin: &Photopolymer, corner: Corner) -> f64 {
+    let Some(ring) = input.light else { return 0.0 };
+    let dose = ring.dose_j_m2(corner.helpful(ring.intensity_w_sr), input.speed_m_s);
+    let critical = corner.harmful(resin.critical_exposure_j_m2);
+    cure_depth_m(corner.helpful(resin.penetration_m), dose, critical)
+}
+
+fn sag_set_m(
+    input: &StrandInput,
+    material: &Material,
+    diameter_m: f64,
+    stiffness_pa: Interval,
+) -> Interval {
+    let beam = |corner: Corner| SetBeam {
+        diameter_m,
+        density_kg_m3: corner.harmful(material.density_kg_m3),
+        across_m_s2: input.gravity_across_m_s2,
+        youngs_modulus_pa: corner.helpful(stiffness_pa),
+    };
+    match input.ends {
+        Ends::Resting => Interval::exact(0.0),
+        Ends::StartHeld => Corner::interval(|corner| beam(corner).heavy_cantilever_m(input.span_m)),
+        Ends::BothHeld => Corner::interval(|corner| match corner {
+            Corner::Nominal | Corner::Fast => beam(corner).clamped_m(input.span_m),
+            Corner::Slow => beam(corner).simply_supported_m(input.span_m),
+        }),
+    }
+}
+
+/// Pull-back of the end. Free: the law of its setting. Held or resting: nominally none, since what it is
+/// joined to holds it and the strain becomes force (see `free_strain`); the high end is that of a free one.
+fn end_miss_m(input: &StrandInput, material: &Material) -> Interval {
+    let free = Corner::interval(|corner| match &material.setting {
+        Setting::Thermoplastic(plastic) => cooling_end_miss_m(
+            corner.harmful(material.cte_per_k),
+            corner.harmful(plastic.glass_k),
+            &cooling(input, material, plastic, corner),
+            input.length_m,
+            input.speed_m_s,
+            input.dwell_s,
+        ),
+        Setting::Photopolymer(resin) => light_run(input, resin, corner).end_miss_m(
+            input.length_m,
+            input.speed_m_s,
+            input.dwell_s,
+        ),
+        Setting::TwoPart(mix) => {
+            let gel_s = corner.harmful(mix.set_time_s);
+            CureRun {
+                strain: corner.harmful(mix.linear_shrinkage),
+                shadow_m: 0.0,
+                gel_s,
+                done_s: 2.0 * gel_s,
+            }
+            .end_miss_m(input.length_m, input.speed_m_s, input.dwell_s)
+        }
+    });
+    match input.ends {
+        Ends::StartHeld => free,
+        Ends::BothHeld | Ends::Resting => Interval { nominal: 0.0, low: 0.0, high: free.high },
+    }
+}
+
+fn light_run(input: &StrandInput, resin: &Photopolymer, corner: Corner) -> CureRun {
+    let shadow_m = input.light.map_or(0.0, |ring| ring.shadow_m);
+    let gel_s = light_set_s(input, resin, corner) - shadow_m / input.speed_m_s;
+    let lit_s = input.light.map_or(0.0, |ring| ring.lit_length_m()) / input.speed_m_s;
+    CureRun { strain: corner.harmful(resin.linear_shrinkage), shadow_m, gel_s, done_s: lit_s }
+}
+
+fn laws(input: &StrandInput, material: &Material) -> Vec<&'static str> {
+    let mut laws = vec!["mass balance", "draw ratio and swell"];
+    match &material.setting {
+        Setting::Thermoplastic(_) => laws.extend([
+            "Churchill-Chu natural convection",
+            "Churchill-Bernstein cross flow",
+            "radiation",
+            "lumped cooling with radial resistance",
+            "Cross-WLF zero-shear viscosity",
+            "shrinkage by expansion below the glass transition",
+        ]),
+        Setting::Photopolymer(_) => laws.extend([
+            "ring irradiance",
+            "Jacobs cure depth",
+            "yield stress collapse",
+            "shrinkage past the gel point",
+        ]),
+        Setting::TwoPart(_) => laws.extend(["set time", "shrinkage past the gel point"]),
+    }
+    match input.ends {
+        Ends::BothHeld => {
+            laws.extend([
+                "viscous beam behind the nozzle",
+                "slack parabola",
+                "elastic self-weight",
+            ]);
+        }
+        Ends::StartHeld => laws.extend(["viscous beam behind the nozzle", "elastic cantilever"]),
+        Ends::Resting => {}
+    }
+    laws
+}

@@ -1,0 +1,116 @@
+//! Convex shapes of arms, tools and obstacles, and their counterparts in parry3d.
+
+use parry3d::shape::SharedShape;
+
+use crate::parry;
+use crate::pose::{self, Point, Pose};
+
+/// A shape in the axes of the body it belongs to, m.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// All points within a radius of a line.
+    Capsule {
+        /// One end.
+        a: Point,
+        /// The other.
+        b: Point,
+        /// Radius, m.
+        radius_m: f64,
+    },
+    /// Truncated cone; equal radii make a cylinder.
+    Cone {
+        /// Centre of one face.
+        from: Point,
+        /// Centre of the other.
+        to: Point,
+        /// Radius at `from`, m.
+        radius_from_m: f64,
+        /// Radius at `to`, m.
+        radius_to_m: f64,
+    },
+    /// A box about its own axes.
+    Box {
+        /// Axes of the box.
+        pose: Pose,
+        /// Half edge lengths, m.
+        half_m: [f64; 3],
+    },
+    /// Convex hull of points.
+    Hull {
+        /// The points.
+        points: Vec<Point>,
+    },
+    /// Triangles; not convex.
+    Mesh {
+        /// Vertices.
+        vertices: Vec<Point>,
+        /// Vertex indices.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+/// Corners of the polygon that stands for a circle; it is drawn around the circle, not in it.
+const CORNERS: usize = 16;
+
+impl Shape {
+    /// The shape for parry3d, never smaller than ours.
+    ///
+    /// A hull or mesh without volume falls back to the capsule of its diagonal, which is larger.
+    pub fn to_parry(&self) -> SharedShape {
+        match self {
+            Self::Capsule { a, b, radius_m } => {
+                SharedShape::capsule(parry::point(a), parry::point(b), *radius_m as f32)
+            }
+            Self::Cone { .. } | Self::Box { .. } | Self::Hull { .. } => {
+                let points: Vec<_> = self.corners().iter().map(parry::point).collect();
+                SharedShape::convex_hull(&points).unwrap_or_else(|| self.diagonal_capsule())
+            }
+            Self::Mesh { vertices, triangles } => {
+                let points = vertices.iter().map(parry::point).collect();
+                SharedShape::trimesh(points, triangles.clone())
+                    .unwrap_or_else(|_| self.diagonal_capsule())
+            }
+        }
+    }
+
+    /// Points whose convex hull encloses the shape (for a capsule: without its radius).
+    pub fn corners(&self) -> Vec<Point> {
+        match self {
+            Self::Capsule { a, b, .. } => vec![*a, *b],
+            Self::Cone { from, to, radius_from_m, radius_to_m } => {
+                let axes = pose::from_z_axis(*from, to - from, nalgebra::Vector3::x());
+                let length_m = (to - from).norm();
+                let around = 1.0 / (std::f64::consts::PI / CORNERS as f64).cos();
+                let ring = |radius_m: f64, z_m: f64| {
+                    (0..CORNERS).map(move |k| {
+                        let angle = std::f64::consts::TAU * k as f64 / CORNERS as f64;
+                        let r = radius_m * around;
+                        axes * Point::new(r * angle.cos(), r * angle.sin(), z_m)
+                    })
+                };
+                ring(*radius_from_m, 0.0).chain(ring(*radius_to_m, length_m)).collect()
+            }
+            Self::Box { pose, half_m: [x, y, z] } => (0..8)
+                .map(|k| {
+                    let sign = |bit: usize, half: f64| if k & bit == 0 { half } else { -half };
+                    pose * Point::new(sign(1, *x), sign(2, *y), sign(4, *z))
+                })
+                .collect(),
+            Self::Hull { points } | Self::Mesh { vertices: points, .. } => points.clone(),
+        }
+    }
+
+    /// Radius added around the corners.
+    pub fn skin_m(&self) -> f64 {
+        if let Self::Capsule { radius_m, .. } = self { *radius_m } else { 0.0 }
+    }
+
+    fn diagonal_capsule(&self) -> SharedShape {
+        let corners = self.corners();
+        let first = corners.first().copied().unwrap_or_else(Point::origin);
+        let (low, high) = corners.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+        let centre = nalgebra::center(&low, &high);
+        let radius = ((high - low).norm() / 2.0).max(1e-6) as f32;
+        SharedShape::capsule(parry::point(&centre), parry::point(&centre), radius)
+    }
+}

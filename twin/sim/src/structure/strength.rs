@@ -1,0 +1,249 @@
+//! Stress in members against strength along the strand, and at their ends against the bond.
+
+use super::beam::{Beam, beams};
+use super::frame::{Frame, Member};
+use super::solve::{Solution, SolveError};
+use crate::pose::Vector;
+
+/// What a strand, and the bond at its ends, can take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strength {
+    /// In tension along the strand, Pa.
+    pub tension_pa: f64,
+    /// In compression along the strand, Pa (positive).
+    pub compression_pa: f64,
+    /// Tension a bond takes as part of the strand's own, 0 to 1.
+    pub bond_fraction: f64,
+}
+
+impl Strength {
+    fn is_usable(&self) -> bool {
+        [self.tension_pa, self.compression_pa, self.bond_fraction]
+            .iter()
+            .all(|number| number.is_finite() && *number > 0.0)
+    }
+}
+
+/// Which law governs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Governs {
+    /// Tension with torsion in the strand.
+    Tension,
+    /// Compression with torsion in the strand.
+    Compression,
+    /// Tension at an end of the member against the bond.
+    Bond,
+}
+
+/// How much of the strength is used, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Utilisation {
+    /// Equivalent stress over strength; 1 is the limit.
+    pub value: f64,
+    /// The member.
+    pub member: usize,
+    /// Distance from its first node, m.
+    pub station_m: f64,
+    /// The law.
+    pub governs: Governs,
+}
+
+/// Forces on the first end of a member and its weight: enough for every section of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cut {
+    force_n: Vector,
+    moment_n_m: Vector,
+    line_n_per_m: Vector,
+}
+
+impl Cut {
+    pub(crate) fn new(end_forces: &[f64], line_n_per_m: Vector) -> Self {
+        Self {
+            force_n: Vector::from_column_slice(&end_forces[..3]),
+            moment_n_m: Vector::from_column_slice(&end_forces[3..6]),
+            line_n_per_m,
+        }
+    }
+
+    /// This one and a multiple of another.
+    fn plus(&self, other: &Self, factor: f64) -> Self {
+        Self {
+            force_n: self.force_n + other.force_n * factor,
+            moment_n_m: self.moment_n_m + other.moment_n_m * factor,
+            line_n_per_m: self.line_n_per_m + other.line_n_per_m * factor,
+        }
+    }
+
+    /// Axial force (tension positive), bending moment (vector across) and torque at a section:
+    /// `N = -(F + w s)·x`, `M = -M₁ + s x × F + s²/2 x × w`, from equilibrium of the piece before it.
+    fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
+        let axial_n = -(self.force_n + self.line_n_per_m * s).dot(x);
+        let moment = -self.moment_n_m
+            + x.cross(&self.force_n) * s
+            + x.cross(&self.line_n_per_m) * (s * s / 2.0);
+        let torque = moment.dot(x);
+        (axial_n, moment - x * torque, torque)
+    }
+
+    /// Ends, and where the moment may peak between them: no shear along or across the weight.
+    fn stations(&self, x: &Vector, length_m: f64) -> [f64; 4] {
+        let line = self.line_n_per_m - x * x.dot(&self.line_n_per_m);
+        let steep = line.norm_squared();
+        let no_shear = if steep > 0.0 { -self.force_n.dot(&line) / steep } else { 0.0 };
+        [0.0, length_m, no_shear.clamp(0.0, length_m), 0.5 * length_m]
+    }
+}
+
+/// Geometry of a member as the laws need it.
+pub(crate) struct Span<'a> {
+    pub(crate) member: &'a Member,
+    pub(crate) x: Vector,
+    pub(crate) y: Vector,
+    pub(crate) length_m: f64,
+}
+
+impl Span<'_> {
+    /// `σ = N/A ± c |(M_y/I_y, M_z/I_z)|`, `τ = T c/J`, both as if at the outermost fibre: exact for
+    /// a circle, not below the truth for other sections (for a strongly oblong one τ is the
+    /// circle's formula, not Saint-Venant's peak).
+    fn stress(&self, cut: &Cut, station_m: f64) -> (f64, f64, f64) {
+        let section = &self.member.section;
+        let (axial_n, bending, torque) = cut.at(&self.x, station_m);
+        let z = self.x.cross(&self.y);
+        let bend_pa = section.fibre_m
+            * (bending.dot(&self.y) / section.iy_m4).hypot(bending.dot(&z) / section.iz_m4);
+        let axial_pa = axial_n / section.area_m2;
+        (axial_pa + bend_pa, axial_pa - bend_pa, torque * section.fibre_m / section.j_m4)
+    }
+
+    /// `√(σ² + 3 τ²)` against tension and compression apart, and `σ/(bond · tension)` at the ends.
+    pub(crate) fn utilisation(&self, cut: &Cut, strength: &Strength) -> (f64, f64, Governs) {
+        let mut worst = (0.0, 0.0, Governs::Tension);
+        let stations = cut.stations(&self.x, self.length_m);
+        for (at, &station_m) in stations.iter().enumerate() {
+            let (high_pa, low_pa, shear_pa) = self.stress(cut, station_m);
+            let equivalent_pa = |normal_pa: f64| normal_pa.hypot(3f64.sqrt() * shear_pa);
+            let tension = equivalent_pa(high_pa.max(0.0)) / strength.tension_pa;
+            let compression = equivalent_pa(low_pa.min(0.0)) / strength.compression_pa;
+            let bond = if at < 2 {
+                high_pa.max(0.0) / (strength.bond_fraction * strength.tension_pa)
+            } else {
+                0.0
+            };
+            for (value, governs) in [
+                (tension, Governs::Tension),
+                (compression, Governs::Compression),
+                (bond, Governs::Bond),
+            ] {
+                if value > worst.0 {
+                    worst = (value, station_m, governs);
+                }
+            }
+        }
+        worst
+    }
+}
+
+/// One strength per member, each usable.
+pub(crate) fn check_strengths(frame: &Frame, strengths: &[Strength]) -> Result<(), SolveError> {
+    if strengths.len() != frame.members().len() {
+        return Err(SolveError::BadMember { member: strengths.len().min(frame.members().len()) });
+    }
+    match strengths.iter().position(|strength| !strength.is_usable()) {
+        Some(member) => Err(SolveError::BadMember { member }),
+        None => Ok(()),
+    }
+}
+
+/// The most used member of a solution; `None` for a frame without members. `strengths` by member,
+/// `gravity` the one the solution was made with.
+///
+/// # Errors
+/// [`SolveError::BadMember`] where a strength or a force is missing or not positive.
+pub fn utilisation(
+    frame: &Frame,
+    strengths: &[Strength],
+    solution: &Solution,
+    gravity_m_s2: [f64; 3],
+) -> Result<Option<Utilisation>, SolveError> {
+    check_strengths(frame, strengths)?;
+    let cuts = cuts(frame, solution, gravity_m_s2)?;
+    Ok(worst(&spans(frame, &beams(frame)), &cuts, strengths))
+}
+
+/// The factor on the second load at which the first member is used up, the first load staying as it
+/// is: 0 where the first alone is too much, infinite where the second never is.
+///
+/// Utilisation is convex in the factor (norms of straight lines), so the crossing is the only one;
+/// it is bisected to a relative 1e-13.
+///
+/// # Errors
+/// As [`utilisation`].
+pub fn first_yield_factor(
+    frame: &Frame,
+    strengths: &[Strength],
+    lasting: (&Solution, [f64; 3]),
+    growing: (&Solution, [f64; 3]),
+) -> Result<f64, SolveError> {
+    check_strengths(frame, strengths)?;
+    let base = cuts(frame, lasting.0, lasting.1)?;
+    let step = cuts(frame, growing.0, growing.1)?;
+    let spans = spans(frame, &beams(frame));
+    let used = |factor: f64| {
+        let both: Vec<Cut> = base.iter().zip(&step).map(|(a, b)| a.plus(b, factor)).collect();
+        worst(&spans, &both, strengths).map_or(0.0, |worst| worst.value)
+    };
+    if used(0.0) >= 1.0 {
+        return Ok(0.0);
+    }
+    let Some((mut low, mut high)) = (0..400)
+        .map(|k| 2f64.powi(k - 100))
+        .find(|&factor| used(factor) >= 1.0)
+        .map(|factor| (factor / 2.0, factor))
+    else {
+        return Ok(f64::INFINITY);
+    };
+    if used(low) >= 1.0 {
+        return Ok(low);
+    }
+    while high - low > 1e-13 * high {
+        let middle = 0.5 * (low + high);
+        if used(middle) >= 1.0 { high = middle } else { low = middle }
+    }
+    Ok(low)
+}
+
+/// Members with their directions and lengths.
+pub(crate) fn spans<'a>(frame: &'a Frame, beams: &[Beam]) -> Vec<Span<'a>> {
+    let of_member = |(member, beam): (&'a Member, &Beam)| Span {
+        member,
+        x: beam.axes.column(0).into_owned(),
+        y: beam.axes.column(1).into_owned(),
+        length_m: beam.length_m,
+    };
+    frame.members().iter().zip(beams).map(of_member).collect()
+}
+
+fn cuts(frame: &Frame, of: &Solution, gravity_m_s2: [f64; 3]) -> Result<Vec<Cut>, SolveError> {
+    let count = frame.members().len();
+    if of.end_forces.len() != count {
+        return Err(SolveError::BadMember { member: of.end_forces.len().min(count) });
+    }
+    let cut = |(member, ends): (&Member, &[f64; 12])| {
+        let line_kg_per_m = member.density_kg_m3 * member.section.area_m2;
+        Cut::new(ends, Vector::from(gravity_m_s2) * line_kg_per_m)
+    };
+    Ok(frame.members().iter().zip(&of.end_forces).map(cut).collect())
+}
+
+/// The first of the most used members.
+pub(crate) fn worst(spans: &[Span], cuts: &[Cut], strengths: &[Strength]) -> Option<Utilisation> {
+    let mut worst: Option<Utilisation> = None;
+    for (member, ((span, cut), strength)) in spans.iter().zip(cuts).zip(strengths).enumerate() {
+        let (value, station_m, governs) = span.utilisation(cut, strength);
+        if worst.is_none_or(|worst| value > worst.value) {
+            worst = Some(Utilisation { value, member, station_m, governs });
+        }
+    }
+    worst
+}

@@ -1,0 +1,25 @@
+//! Texts of the twin's formats to documents with positions in the text, and back.
+//!
+//! | file            | type                          | module         |
+//! |-----------------|-------------------------------|----------------|
+//! | `job.slam`      | [`document::Document`]        | `job`          |
+//! | cell, tool, robot, material `.toml` | [`cell_file`], [`tool_file`], [`robot_file`], [`material_file`] | same |
+//! | `.urdf`         | [`urdf::RobotDescription`]    | `urdf`         |
+//! | `.stl`, `.obj`  | [`mesh::Mesh`]                | `mesh`         |
+//!
+//! Numbers stay in the units of the file (mm, °C, degrees); `sim` turns them to SI. Nothing here
+//! opens a file: text comes in, values and [`diagnostic::Diagnostic`]s go out. No input panics.
+
+pub mod cell_file;
+pub mod diagnostic;
+pub mod document;
+pub mod job;
+pub mod material_file;
+pub mod mesh;
+pub mod robot_file;
+pub mod schema;
+pub mod tool_file;
+pub mod urdf;
+
+pub use diagnostic::{Diagnostic, Severity, Source, Span, Spanned};
+pub use document::Document;

@@ -1,0 +1,210 @@
+//! `materials/<name>.toml`: a printing material, every number with range, status and source.
+
+use serde::Deserialize;
+
+use crate::cell_file::checks::{Checks, Place, Rule, parse_checked};
+use crate::{Diagnostic, Source};
+
+/// 0 K, °C.
+const ABSOLUTE_ZERO_C: f64 = -273.15;
+
+/// A material as written.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialFile {
+    /// Its name.
+    pub name: String,
+    /// What a reader must know before trusting it.
+    #[serde(default)]
+    pub note: String,
+    /// Density as printed and set, kg/m³.
+    pub density_kg_m3: Number,
+    /// Young's modulus when set, Pa.
+    pub youngs_modulus_pa: Number,
+    /// Poisson's ratio.
+    pub poisson: Number,
+    /// Strength along the strand, Pa.
+    pub strength_pa: Number,
+    /// Strength across a bond over strength along the strand.
+    pub bond_fraction: Number,
+    /// Linear thermal expansion below the set temperature, 1/K.
+    pub cte_per_k: Number,
+    /// Specific heat, J/(kg K).
+    pub cp_j_kgk: Number,
+    /// Thermal conductivity, W/(m K).
+    pub k_w_mk: Number,
+    /// Emissivity.
+    pub emissivity: Number,
+    /// The law by which it sets.
+    pub setting: SettingFile,
+}
+
+/// How a material sets.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub enum SettingFile {
+    /// By cooling.
+    Thermoplastic {
+        /// Nozzle temperature, °C.
+        extrusion_c: Number,
+        /// Density of the melt, kg/m³.
+        melt_density_kg_m3: Number,
+        /// Glass transition, °C.
+        glass_c: Number,
+        /// Below this the strand no longer flows, °C; a label, the laws use the viscosity.
+        flow_arrest_c: Number,
+        /// Zero-shear viscosity, Cross-WLF: `D1 exp(−A1 (T − T*) / (A2 + T − T*))`.
+        viscosity: CrossWlf,
+        /// Modulus of the rubbery plateau above the glass transition, Pa.
+        plateau_modulus_pa: Number,
+    },
+    /// By light.
+    Photopolymer {
+        /// Density of the gel, kg/m³.
+        gel_density_kg_m3: Number,
+        /// Viscosity of the resin without filler, Pa s.
+        base_viscosity_pa_s: Number,
+        /// Yield stress of the gel, Pa.
+        yield_stress_pa: Number,
+        /// Penetration depth of the light, m.
+        penetration_m: Number,
+        /// Critical exposure, J/m².
+        critical_exposure_j_m2: Number,
+        /// Modulus just past the gel point, Pa.
+        gel_modulus_pa: Number,
+        /// Modulus after post-cure, Pa; `youngs_modulus_pa` is the green one.
+        cured_modulus_pa: Number,
+        /// Linear shrinkage after the gel point.
+        linear_shrinkage: Number,
+    },
+    /// By the clock, from the mixer on.
+    TwoPart {
+        /// Time from nozzle to set, s.
+        set_time_s: Number,
+        /// Viscosity as it leaves the nozzle, Pa s.
+        viscosity_pa_s: Number,
+        /// Linear shrinkage after the gel point.
+        linear_shrinkage: Number,
+    },
+}
+
+/// A number with its range.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Number {
+    /// Nominal value.
+    pub value: f64,
+    /// Low end of what it may be.
+    pub low: f64,
+    /// High end of what it may be.
+    pub high: f64,
+    /// How it is known.
+    pub status: Status,
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// How a number is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Read in a public source.
+    Found,
+    /// Stated in one of the three papers the project starts from.
+    Seed,
+    /// Computed from others.
+    Derived,
+    /// General knowledge or our own range.
+    Memory,
+    /// Fitted by `twin calibrate`.
+    Measured,
+}
+
+/// Coefficients of one fit; they share one factor of uncertainty.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CrossWlf {
+    /// D1, Pa s.
+    pub d1_pa_s: f64,
+    /// T*, K.
+    pub t_star_k: f64,
+    /// A1.
+    pub a1: f64,
+    /// A2, K.
+    pub a2_k: f64,
+    /// Low end of the viscosity over its nominal value.
+    pub factor_low: f64,
+    /// High end of the viscosity over its nominal value.
+    pub factor_high: f64,
+    /// How it is known.
+    pub status: Status,
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// Reads a material; refuses missing and impossible numbers, each with its place.
+///
+/// # Errors
+/// Every problem found, in order of place.
+pub fn parse(source: &Source) -> Result<MaterialFile, Vec<Diagnostic>> {
+    parse_checked(source, |material, checks| {
+        checks.text(material.get("name"), "name the material");
+        for number in material.entries() {
+            checks.ranged(Some(number), rule_of(number.name()));
+        }
+        for law in material.get("setting").map(Place::entries).unwrap_or_default() {
+            for number in law.entries() {
+                checks.ranged(Some(number), rule_of(number.name()));
+            }
+            temperatures(law, checks);
+            if let Some(viscosity) = law.get("viscosity") {
+                cross_wlf(viscosity, law, checks);
+            }
+        }
+    })
+}
+
+/// What the number under a key may be; the range of a key holds in every law that has it.
+fn rule_of(key: &str) -> Rule {
+    match key {
+        "poisson" => Rule::Between(-1.0, 0.5),
+        "bond_fraction" | "emissivity" => Rule::AboveUpTo(0.0, 1.0),
+        // Filled strands may grow a little along the fibre when they cool.
+        "cte_per_k" => Rule::Between(-1e-3, 1e-2),
+        "linear_shrinkage" => Rule::FromTo(0.0, 0.5),
+        "extrusion_c" | "glass_c" | "flow_arrest_c" => Rule::Between(ABSOLUTE_ZERO_C, 2000.0),
+        _ => Rule::Positive,
+    }
+}
+
+fn temperatures(law: Place<'_>, checks: &mut Checks) {
+    let value = |key: &str| law.get(key)?.get("value")?.number();
+    let Some(extrusion) = value("extrusion_c") else { return };
+    for key in ["glass_c", "flow_arrest_c"] {
+        if let (Some(place), Some(set)) = (law.get(key), value(key))
+            && set >= extrusion
+        {
+            let says = format!("`{key}` {set} °C is not below the nozzle's {extrusion} °C");
+            let hint = "a thermoplastic must be a melt in the nozzle and set in air";
+            checks.refuse(Diagnostic::error(place.span(), says).hint(hint));
+        }
+    }
+}
+
+fn cross_wlf(fit: Place<'_>, law: Place<'_>, checks: &mut Checks) {
+    for key in ["d1_pa_s", "t_star_k", "a1", "a2_k"] {
+        checks.number(fit.get(key), Rule::Positive);
+    }
+    checks.number(fit.get("factor_low"), Rule::AboveUpTo(0.0, 1.0));
+    checks.number(fit.get("factor_high"), Rule::FromTo(1.0, 1e6));
+    // The law has a pole where A2 + T − T* is zero; the melt must be on its warm side.
+    let value = |key: &str| fit.get(key)?.number();
+    let extrusion = law.get("extrusion_c").and_then(|place| place.get("low")?.number());
+    if let (Some(extrusion_c), Some(t_star_k), Some(a2_k), Some(place)) =
+        (extrusion, value("t_star_k"), value("a2_k"), fit.get("t_star_k"))
+        && a2_k + extrusion_c - ABSOLUTE_ZERO_C - t_star_k <= 0.0
+    {
+        let says = format!("the viscosity has no value at {extrusion_c} °C: A2 + T − T* ≤ 0");
+        checks.refuse(Diagnostic::error(place.span(), says).hint("T* and A2 are in kelvin"));
+    }
+}
