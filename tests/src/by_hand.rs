@@ -22,9 +22,13 @@ fn readmes_worked_by_hand_agree_with_the_report() {
         for (quantity, number, pointer) in rows(&readme) {
             let found = report.pointer(&pointer).and_then(Value::as_f64);
             let found = found.unwrap_or_else(|| panic!("{name}: nothing at {pointer}"));
-            let expected: f64 = number.parse().unwrap_or_else(|_| panic!("{name}: `{number}` is no number"));
+            let expected: f64 =
+                number.parse().unwrap_or_else(|_| panic!("{name}: `{number}` is no number"));
             let half = half_of_last_digit(&number);
-            assert!((found - expected).abs() <= half, "{name}: {quantity}: by hand {number}, report {found}");
+            assert!(
+                (found - expected).abs() <= half,
+                "{name}: {quantity}: by hand {number}, report {found}"
+            );
             here += 1;
         }
         assert!(here >= 4, "{name}: only {here} numbers worked by hand");

@@ -8,6 +8,8 @@ mod by_hand;
 #[cfg(test)]
 mod invariance;
 #[cfg(test)]
+mod pictures;
+#[cfg(test)]
 mod reference;
 #[cfg(test)]
 mod scenarios;

@@ -11,7 +11,8 @@ use crate::tools::{scratch, shared, twin};
 #[test]
 fn inspect_agrees_with_the_reference() {
     let Some(path) = shared("data/robots/fk_reference.json") else { return };
-    let reference: Value = serde_json::from_str(&fs::read_to_string(&path).expect("readable")).expect("JSON");
+    let reference: Value =
+        serde_json::from_str(&fs::read_to_string(&path).expect("readable")).expect("JSON");
     let robots = path.parent().and_then(|folder| folder.parent()).expect("data/");
     let folder = scratch("inspect");
     let ours = [
@@ -29,11 +30,20 @@ fn inspect_agrees_with_the_reference() {
         fs::write(&q_file, serde_json::to_string(&q).expect("JSON")).expect("written");
         let original = robots.join(robot["urdf"].as_str().expect("a path"));
         let mut urdfs = vec![original.display().to_string()];
-        urdfs.extend(ours.iter().filter(|(theirs, _)| theirs == name).map(|(_, ours)| (*ours).to_owned()));
+        urdfs.extend(
+            ours.iter().filter(|(theirs, _)| theirs == name).map(|(_, ours)| (*ours).to_owned()),
+        );
         for urdf in urdfs {
             let tip = robot["tool"].as_str().expect("a link");
             let ran = twin([
-                "inspect", &urdf, "--tip", tip, "--q", &q_file.display().to_string(), "--format", "json",
+                "inspect",
+                &urdf,
+                "--tip",
+                tip,
+                "--q",
+                &q_file.display().to_string(),
+                "--format",
+                "json",
             ]);
             assert_eq!(ran.code, 0, "{urdf}: {}", ran.err);
             let answers: Value = serde_json::from_str(&ran.out).expect("JSON on standard output");

@@ -56,7 +56,8 @@ struct ExpectedValue {
 impl ExpectedFinding {
     /// Whether this line speaks of that finding; the ranges are not looked at.
     fn speaks_of(&self, finding: &Value) -> bool {
-        let text = |pointer: &str| finding.pointer(pointer).and_then(Value::as_str).map(str::to_owned);
+        let text =
+            |pointer: &str| finding.pointer(pointer).and_then(Value::as_str).map(str::to_owned);
         let bodies = finding.pointer("/site/bodies").cloned().unwrap_or_default();
         text("/code").as_ref() == Some(&self.code)
             && text("/severity").as_ref() == Some(&self.severity)
@@ -71,12 +72,18 @@ impl ExpectedFinding {
         if !(least..=most).contains(&found.len()) {
             complaints.push(format!("{self:?}: found {} times", found.len()));
         }
-        let number = |finding: &Value, pointer: &str| finding.pointer(pointer).and_then(Value::as_f64);
-        let inside = |range: [f64; 2], value: Option<f64>| value.is_some_and(|v| v >= range[0] && v <= range[1]);
+        let number =
+            |finding: &Value, pointer: &str| finding.pointer(pointer).and_then(Value::as_f64);
+        let inside = |range: [f64; 2], value: Option<f64>| {
+            value.is_some_and(|v| v >= range[0] && v <= range[1])
+        };
         for finding in found {
             let measured = number(finding, "/measured");
             if !inside(self.measured, measured) {
-                complaints.push(format!("{} measured {measured:?}, not in {:?}", self.code, self.measured));
+                complaints.push(format!(
+                    "{} measured {measured:?}, not in {:?}",
+                    self.code, self.measured
+                ));
             }
             let at_m = number(finding, "/site/at_m");
             if self.at_m.is_some_and(|range| !inside(range, at_m)) {
@@ -102,12 +109,14 @@ fn complaints(folder: &Path, expected: &ExpectedJob) -> Vec<String> {
     }
     let findings = report["findings"].as_array().cloned().unwrap_or_default();
     for line in &expected.finding {
-        let spoken: Vec<&Value> = findings.iter().filter(|finding| line.speaks_of(finding)).collect();
+        let spoken: Vec<&Value> =
+            findings.iter().filter(|finding| line.speaks_of(finding)).collect();
         complaints.extend(line.complaints(&spoken));
     }
     for finding in &findings {
         if !expected.finding.iter().any(|line| line.speaks_of(finding)) {
-            complaints.push(format!("not expected: {} {}", finding["severity"], finding["message"]));
+            complaints
+                .push(format!("not expected: {} {}", finding["severity"], finding["message"]));
         }
     }
     for value in &expected.value {
@@ -146,11 +155,15 @@ fn every_scenario_finds_what_it_expects() {
 fn every_code_has_a_scenario_on_both_sides() {
     for code in sim::finding::Code::ALL {
         let code = code.as_str();
-        let folder = tools::root().join("scenarios").join(format!("near-miss-{}", code.to_lowercase()));
+        let folder =
+            tools::root().join("scenarios").join(format!("near-miss-{}", code.to_lowercase()));
         let text = fs::read_to_string(folder.join("expected.toml"))
             .unwrap_or_else(|error| panic!("{code}: {}: {error}", folder.display()));
-        let expected: Expected = toml::from_str(&text).unwrap_or_else(|error| panic!("{code}: {error}"));
-        let provokes = |job: &ExpectedJob| job.finding.iter().any(|line| line.code == code && line.severity == "error");
+        let expected: Expected =
+            toml::from_str(&text).unwrap_or_else(|error| panic!("{code}: {error}"));
+        let provokes = |job: &ExpectedJob| {
+            job.finding.iter().any(|line| line.code == code && line.severity == "error")
+        };
         assert!(expected.job.iter().any(provokes), "{code}: no job provokes it");
         assert!(expected.job.iter().any(|job| !provokes(job)), "{code}: no job stays clear of it");
     }

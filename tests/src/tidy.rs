@@ -25,8 +25,20 @@ const MAY_USE: [(&str, &[&str]); 16] = [
     (
         "preflight",
         &[
-            "scene", "growth", "collision", "deposit", "motion", "toolpath", "structure", "process",
-            "finding", "cell", "kinematics", "shape", "interval", "pose",
+            "scene",
+            "growth",
+            "collision",
+            "deposit",
+            "motion",
+            "toolpath",
+            "structure",
+            "process",
+            "finding",
+            "cell",
+            "kinematics",
+            "shape",
+            "interval",
+            "pose",
         ],
     ),
 ];
@@ -37,7 +49,9 @@ const LINES_MAX: usize = 600;
 /// What `source`, a file of `module`, uses against the table.
 fn forbidden_uses(module: &str, source: &str) -> Vec<String> {
     let may_use = |name: &str| MAY_USE.iter().find(|row| row.0 == name).map(|row| row.1);
-    let Some(allowed) = may_use(module) else { return vec![format!("{module} is not in the table")] };
+    let Some(allowed) = may_use(module) else {
+        return vec![format!("{module} is not in the table")];
+    };
     source
         .split("crate::")
         .skip(1)
@@ -64,7 +78,8 @@ fn modules_of_sim_only_look_where_they_may() {
     let mut problems = Vec::new();
     for file in rust_files(&sim) {
         let inside = file.strip_prefix(&sim).expect("a file of sim");
-        let first = inside.components().next().expect("a name").as_os_str().to_string_lossy().into_owned();
+        let first =
+            inside.components().next().expect("a name").as_os_str().to_string_lossy().into_owned();
         let module = first.trim_end_matches(".rs");
         let is_test = inside.iter().any(|part| part.to_string_lossy().starts_with("tests"));
         if module == "lib" || is_test {
@@ -82,7 +97,8 @@ fn files_are_short() {
     let mut long = Vec::new();
     for folder in ["twin", "tests"] {
         for file in rust_files(&root().join(folder)) {
-            let n_lines = fs::read_to_string(&file).expect("a source file can be read").lines().count();
+            let n_lines =
+                fs::read_to_string(&file).expect("a source file can be read").lines().count();
             if n_lines > LINES_MAX {
                 long.push(format!("{}: {n_lines} lines", file.display()));
             }
@@ -106,20 +122,28 @@ fn the_register_of_codes_is_complete() {
 /// ARCHITECTURE.md names every crate and every module of `sim`, and stays short.
 #[test]
 fn the_architecture_is_told() {
-    let text = fs::read_to_string(root().join("twin/ARCHITECTURE.md")).expect("twin/ARCHITECTURE.md");
+    let text =
+        fs::read_to_string(root().join("twin/ARCHITECTURE.md")).expect("twin/ARCHITECTURE.md");
     assert!(text.lines().count() < 200, "ARCHITECTURE.md is longer than 200 lines");
     for name in ["slam", "sim", "plan", "report", "render", "cli"] {
-        assert!(text.contains(&format!("`{name}`")), "ARCHITECTURE.md does not name the crate {name}");
+        assert!(
+            text.contains(&format!("`{name}`")),
+            "ARCHITECTURE.md does not name the crate {name}"
+        );
     }
     for (name, _) in MAY_USE {
-        assert!(text.contains(&format!("`{name}`")), "ARCHITECTURE.md does not name the module {name}");
+        assert!(
+            text.contains(&format!("`{name}`")),
+            "ARCHITECTURE.md does not name the module {name}"
+        );
     }
 }
 
 /// `sim` does no IO and hides no randomness.
 #[test]
 fn sim_does_no_io() {
-    const FORBIDDEN: [&str; 6] = ["std::fs", "std::env", "std::time", "std::net", "println!", "SystemTime"];
+    const FORBIDDEN: [&str; 6] =
+        ["std::fs", "std::env", "std::time", "std::net", "println!", "SystemTime"];
     for file in rust_files(&root().join("twin/sim/src")) {
         let is_test = file.iter().any(|part| part.to_string_lossy().starts_with("tests"))
             || file.file_name().is_some_and(|name| name == "reference.rs");
@@ -134,7 +158,9 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder of the workspace").filter_map(Result::ok) {
+        for entry in
+            fs::read_dir(&folder).expect("a folder of the workspace").filter_map(Result::ok)
+        {
             let path = entry.path();
             if path.is_dir() {
                 folders.push(path);

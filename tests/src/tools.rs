@@ -9,7 +9,8 @@ pub(crate) fn root() -> PathBuf {
 
 /// Shared reference data, or `None` with a printed reason.
 pub(crate) fn shared(what: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("TWIN_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from);
+    let folder =
+        std::env::var_os("TWIN_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from);
     let path = folder.join(what);
     if path.exists() {
         return Some(path);
@@ -39,7 +40,8 @@ pub(crate) struct Ran {
 /// Runs `twin` with these arguments.
 pub(crate) fn twin<I: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = I>) -> Ran {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let args = std::iter::once("twin".into()).chain(args.into_iter().map(|arg| arg.as_ref().to_owned()));
+    let args =
+        std::iter::once("twin".into()).chain(args.into_iter().map(|arg| arg.as_ref().to_owned()));
     let code = cli::run(args, &mut out, &mut err);
     let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
     Ran { code, out: text(out), err: text(err) }
@@ -47,7 +49,13 @@ pub(crate) fn twin<I: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = I>)
 
 /// Runs `twin check` without a picture; the report it wrote, if it wrote one.
 pub(crate) fn check(job: &Path, folder: &Path) -> (Ran, Option<serde_json::Value>) {
-    let args = ["check".as_ref(), job.as_os_str(), "--no-render".as_ref(), "--out".as_ref(), folder.as_os_str()];
+    let args = [
+        "check".as_ref(),
+        job.as_os_str(),
+        "--no-render".as_ref(),
+        "--out".as_ref(),
+        folder.as_os_str(),
+    ];
     let ran = twin(args);
     let report = std::fs::read_to_string(folder.join("report.json")).ok();
     (ran, report.and_then(|text| serde_json::from_str(&text).ok()))

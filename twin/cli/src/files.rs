@@ -64,7 +64,11 @@ fn too_large(size: u64, limit: u64) -> String {
 /// With the line of the first byte that is not UTF-8.
 pub(crate) fn text(path: &Path, limit: u64) -> Result<Source, Refusal> {
     let name = path.display().to_string();
-    let bytes = bytes(path, limit).map_err(|message| Refusal::whole(&name, message))?;
+    let bytes = bytes(path, limit).map_err(|message| {
+        let mib = limit >> 20;
+        Refusal::whole(&name, message)
+            .hint(format!("give the path of a text file of at most {mib} MiB"))
+    })?;
     utf8(name, bytes)
 }
 

@@ -159,7 +159,8 @@ fn path_of(name: &str, naming: &Naming<'_>) -> Result<PathBuf, Refusal> {
     match naming.folder {
         Some(folder) => Ok(folder.join(name)),
         None => {
-            let problem = Diagnostic::error(naming.span, "a file in the program names no paths");
+            let problem = Diagnostic::error(naming.span, "a file in the program names no paths")
+                .hint("put a library of your own in front with --library");
             Err(Refusal::of(naming.source, vec![problem]))
         }
     }
@@ -221,6 +222,8 @@ fn form_meshes(
     if problems.is_empty() { Ok(meshes) } else { Err(Refusal::of(source, problems)) }
 }
 
+const MESHES: &str = "a form is a triangle mesh in mm, as .stl or .obj";
+
 /// The mesh of a form, which lies below the job's folder also when links are followed, and the
 /// hash of its bytes.
 fn form_mesh(form: &Form, folder: &Path) -> Result<(Mesh, String), Diagnostic> {
@@ -246,10 +249,9 @@ fn form_mesh(form: &Form, folder: &Path) -> Result<(Mesh, String), Diagnostic> {
     if !real.starts_with(&home) {
         return Err(below(refuse("a link leads out of the job's folder".to_owned())));
     }
-    let bytes = files::bytes(&real, files::MAX_MESH).map_err(refuse)?;
+    let bytes = files::bytes(&real, files::MAX_MESH).map_err(|why| refuse(why).hint(MESHES))?;
     let hash = sha256(&bytes);
     // the name as written says what it is, not the name a link leads to
-    let mesh = robot::parse_mesh(inner, bytes)
-        .map_err(|why| refuse(why).hint("a form is a triangle mesh in mm, as .stl or .obj"))?;
+    let mesh = robot::parse_mesh(inner, bytes).map_err(|why| refuse(why).hint(MESHES))?;
     Ok((mesh, hash))
 }

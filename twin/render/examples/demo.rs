@@ -20,11 +20,7 @@ fn cell() -> Scene {
     let half_m = Vector::new(0.02, 0.35, 0.2);
     Scene {
         bodies: vec![
-            body(
-                "base",
-                BodyKind::Arm,
-                Shape::Cylinder { a: p(0.0, 0.0, 0.0), b: p(0.0, 0.0, 0.2), radius_m: 0.13 },
-            ),
+            body("base", BodyKind::Arm, Shape::cylinder(p(0.0, 0.0, 0.0), p(0.0, 0.0, 0.2), 0.13)),
             arm("shoulder", p(0.0, -0.07, 0.40), p(0.03, 0.07, 0.40), 0.10),
             body(
                 "column",
@@ -32,8 +28,8 @@ fn cell() -> Scene {
                 Shape::Cone {
                     from: p(0.0, 0.0, 0.2),
                     to: p(0.01, 0.0, 0.40),
-                    r_from_m: 0.12,
-                    r_to_m: 0.09,
+                    radius_from_m: 0.12,
+                    radius_to_m: 0.09,
                 },
             ),
             arm("upper arm", p(0.03, 0.0, 0.40), p(0.14, 0.0, 0.84), 0.068),
@@ -43,7 +39,7 @@ fn cell() -> Scene {
             body(
                 "flange",
                 BodyKind::Tool,
-                Shape::Cylinder { a: p(0.56, 0.0, 0.70), b: p(0.56, 0.0, 0.67), radius_m: 0.05 },
+                Shape::cylinder(p(0.56, 0.0, 0.70), p(0.56, 0.0, 0.67), 0.05),
             ),
             body(
                 "feeder",
@@ -56,7 +52,7 @@ fn cell() -> Scene {
             body(
                 "barrel",
                 BodyKind::Tool,
-                Shape::Cylinder { a: p(0.56, 0.0, 0.55), b: p(0.56, 0.0, 0.40), radius_m: 0.016 },
+                Shape::cylinder(p(0.56, 0.0, 0.55), p(0.56, 0.0, 0.40), 0.016),
             ),
             body(
                 "heater",
@@ -72,8 +68,8 @@ fn cell() -> Scene {
                 Shape::Cone {
                     from: p(0.56, 0.0, 0.378),
                     to: p(0.56, 0.0, 0.3185),
-                    r_from_m: 0.014,
-                    r_to_m: 0.002,
+                    radius_from_m: 0.014,
+                    radius_to_m: 0.002,
                 },
             ),
             body(

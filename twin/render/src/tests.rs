@@ -28,24 +28,21 @@ fn scene() -> Scene {
                 BodyKind::Arm,
                 Shape::Capsule { a: p(0.0, 0.0, 0.1), b: p(0.0, 0.0, 0.4), radius_m: 0.08 },
             ),
-            body(
-                BodyKind::Tool,
-                Shape::Cylinder { a: p(0.4, 0.0, 0.2), b: p(0.4, 0.0, 0.3), radius_m: 0.03 },
-            ),
+            body(BodyKind::Tool, Shape::cylinder(p(0.4, 0.0, 0.2), p(0.4, 0.0, 0.3), 0.03)),
             body(
                 BodyKind::Nozzle,
                 Shape::Cone {
                     from: p(0.4, 0.0, 0.2),
                     to: p(0.46, 0.0, 0.13),
-                    r_from_m: 0.02,
-                    r_to_m: 0.002,
+                    radius_from_m: 0.02,
+                    radius_to_m: 0.002,
                 },
             ),
             body(
                 BodyKind::Obstacle,
                 Shape::Box { half_m, pose: Pose::translation(0.4, 0.5, 0.15) },
             ),
-            body(BodyKind::OtherArm, Shape::Sphere { centre: p(0.0, 0.3, 0.1), radius_m: 0.1 }),
+            body(BodyKind::OtherArm, Shape::sphere(p(0.0, 0.3, 0.1), 0.1)),
         ],
         strands: (0..200)
             .map(|i| StrandShape {
@@ -104,12 +101,9 @@ fn axes_are_right_handed_and_named_as_said() {
 fn a_ball_falls_on_its_pixel() {
     let at = Point::new(0.3, -0.2, 0.5);
     let mut scene = Scene::default();
-    scene.bodies.push(body(BodyKind::Nozzle, Shape::Sphere { centre: at, radius_m: 0.05 }));
+    scene.bodies.push(body(BodyKind::Nozzle, Shape::sphere(at, 0.05)));
     // something far off, so that the ball is not in the middle
-    scene.bodies.push(body(
-        BodyKind::Arm,
-        Shape::Sphere { centre: Point::new(-0.9, 0.8, -0.3), radius_m: 0.1 },
-    ));
+    scene.bodies.push(body(BodyKind::Arm, Shape::sphere(Point::new(-0.9, 0.8, -0.3), 0.1)));
     for camera in CAMERAS {
         let engine = Engine::Cpu { because: None };
         let things = Things::new(&scene, &engine, 0.0, |_| true);

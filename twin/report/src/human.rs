@@ -126,7 +126,8 @@ fn strands(report: &Report, screen: &mut Screen) {
         screen.paint(Paint::Bold, &format!("worst of {}", counted(report.strands.len(), "strand")));
     screen.line(&heading);
     let core = |strand: &Strand| strand.uncured_core_m;
-    let rows: [(&str, &dyn Fn(&Strand) -> Option<Range>); 7] = [
+    type Column<'a> = (&'a str, &'a dyn Fn(&Strand) -> Option<Range>);
+    let rows: [Column<'_>; 7] = [
         ("bead", &|strand| Some(strand.bead_diameter_m)),
         ("sag behind nozzle", &|strand| Some(strand.sag_nozzle_m)),
         ("sag by slack", &|strand| Some(strand.sag_slack_m)),

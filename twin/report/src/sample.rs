@@ -143,7 +143,7 @@ pub(crate) fn report() -> Report {
         loads: vec![LoadCase {
             name: "seat".to_owned(),
             deflection_m: Some(2.4e-3),
-            first_yield: Some(3.14),
+            first_yield: Some(3.2),
             fault: None,
         }],
         totals: Totals {

@@ -19,4 +19,6 @@ pub mod process;
 pub mod scene;
 pub mod shape;
 pub mod structure;
+#[cfg(test)]
+mod test_job;
 pub mod toolpath;

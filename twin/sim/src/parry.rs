@@ -1,7 +1,10 @@
 //! The only place where the f32 types of parry3d meet ours.
 //!
-//! Shapes are expressed about the axes of their body, so that a coordinate of 1 m is rounded by
-//! at most 6e-8 m; [`ROUNDING_M`] bounds what a distance loses by it.
+//! parry3d is handed millimetres: its tolerances are absolute numbers made for shapes of about one
+//! unit, and in metres its distances of nozzles and beads are wrong by millimetres (a short bead
+//! 3.7 mm off a cone was measured 7.8 mm off). Shapes are expressed about the axes of their body,
+//! so that a coordinate of 1 m is rounded by at most 6e-8 m; [`ROUNDING_M`] bounds what a distance
+//! loses by it.
 
 use parry3d::math::{Pose as ParryPose, Rotation, Vector as ParryVector};
 
@@ -10,14 +13,27 @@ use crate::pose::{Point, Pose, Vector};
 /// Bound on what a distance of parry3d loses by its f32 numbers in a cell of a few metres, m.
 pub const ROUNDING_M: f64 = 2e-6;
 
-/// A point for parry3d.
-pub fn point(point: &Point) -> ParryVector {
-    ParryVector::new(point.x as f32, point.y as f32, point.z as f32)
+/// Units of parry3d per metre.
+const PER_M: f64 = 1e3;
+
+/// A length for parry3d.
+pub fn length(length_m: f64) -> f32 {
+    (length_m * PER_M) as f32
 }
 
-/// A vector for parry3d.
+/// A length from parry3d, m.
+pub fn from_length(length: f32) -> f64 {
+    f64::from(length) / PER_M
+}
+
+/// A point for parry3d.
+pub fn point(point: &Point) -> ParryVector {
+    vector(&point.coords)
+}
+
+/// A vector of lengths for parry3d.
 pub fn vector(vector: &Vector) -> ParryVector {
-    ParryVector::new(vector.x as f32, vector.y as f32, vector.z as f32)
+    ParryVector::new(length(vector.x), length(vector.y), length(vector.z))
 }
 
 /// A pose for parry3d.
@@ -29,5 +45,5 @@ pub fn pose(pose: &Pose) -> ParryPose {
 
 /// A point from parry3d.
 pub fn from_point(point: ParryVector) -> Point {
-    Point::new(f64::from(point.x), f64::from(point.y), f64::from(point.z))
+    Point::new(from_length(point.x), from_length(point.y), from_length(point.z))
 }

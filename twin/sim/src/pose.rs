@@ -3,7 +3,9 @@
 //! `world_from_tool * tool_from_tip = world_from_tip`: names cancel, products that do not cancel
 //! are wrong.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{
+    Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
+};
 
 /// A rigid pose: unit quaternion and vector, never an affine matrix.
 pub type Pose = Isometry3<f64>;

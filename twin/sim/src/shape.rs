@@ -1,9 +1,12 @@
 //! Convex shapes of arms, tools and obstacles, and their counterparts in parry3d.
 
+#[cfg(test)]
+mod tests;
+
 use parry3d::shape::SharedShape;
 
 use crate::parry;
-use crate::pose::{self, Point, Pose};
+use crate::pose::{self, Point, Pose, Vector};
 
 /// A shape in the axes of the body it belongs to, m.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +36,7 @@ pub enum Shape {
         /// Axes of the box.
         pose: Pose,
         /// Half edge lengths, m.
-        half_m: [f64; 3],
+        half_m: Vector,
     },
     /// Convex hull of points.
     Hull {
@@ -53,13 +56,23 @@ pub enum Shape {
 const CORNERS: usize = 16;
 
 impl Shape {
+    /// A ball, as a capsule without length.
+    pub fn sphere(centre: Point, radius_m: f64) -> Self {
+        Self::Capsule { a: centre, b: centre, radius_m }
+    }
+
+    /// A round bar with flat ends, as a cone of equal radii.
+    pub fn cylinder(from: Point, to: Point, radius_m: f64) -> Self {
+        Self::Cone { from, to, radius_from_m: radius_m, radius_to_m: radius_m }
+    }
+
     /// The shape for parry3d, never smaller than ours.
     ///
     /// A hull or mesh without volume falls back to the capsule of its diagonal, which is larger.
     pub fn to_parry(&self) -> SharedShape {
         match self {
             Self::Capsule { a, b, radius_m } => {
-                SharedShape::capsule(parry::point(a), parry::point(b), *radius_m as f32)
+                SharedShape::capsule(parry::point(a), parry::point(b), parry::length(*radius_m))
             }
             Self::Cone { .. } | Self::Box { .. } | Self::Hull { .. } => {
                 let points: Vec<_> = self.corners().iter().map(parry::point).collect();
@@ -78,7 +91,7 @@ impl Shape {
         match self {
             Self::Capsule { a, b, .. } => vec![*a, *b],
             Self::Cone { from, to, radius_from_m, radius_to_m } => {
-                let axes = pose::from_z_axis(*from, to - from, nalgebra::Vector3::x());
+                let axes = pose::from_z_axis(*from, to - from, Vector::x());
                 let length_m = (to - from).norm();
                 let around = 1.0 / (std::f64::consts::PI / CORNERS as f64).cos();
                 let ring = |radius_m: f64, z_m: f64| {
@@ -90,10 +103,10 @@ impl Shape {
                 };
                 ring(*radius_from_m, 0.0).chain(ring(*radius_to_m, length_m)).collect()
             }
-            Self::Box { pose, half_m: [x, y, z] } => (0..8)
+            Self::Box { pose, half_m } => (0..8)
                 .map(|k| {
                     let sign = |bit: usize, half: f64| if k & bit == 0 { half } else { -half };
-                    pose * Point::new(sign(1, *x), sign(2, *y), sign(4, *z))
+                    pose * Point::new(sign(1, half_m.x), sign(2, half_m.y), sign(4, half_m.z))
                 })
                 .collect(),
             Self::Hull { points } | Self::Mesh { vertices: points, .. } => points.clone(),
@@ -108,9 +121,10 @@ impl Shape {
     fn diagonal_capsule(&self) -> SharedShape {
         let corners = self.corners();
         let first = corners.first().copied().unwrap_or_else(Point::origin);
-        let (low, high) = corners.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+        let (low, high) =
+            corners.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
         let centre = nalgebra::center(&low, &high);
-        let radius = ((high - low).norm() / 2.0).max(1e-6) as f32;
+        let radius = parry::length(((high - low).norm() / 2.0).max(1e-6));
         SharedShape::capsule(parry::point(&centre), parry::point(&centre), radius)
     }
 }

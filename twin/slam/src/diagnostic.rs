@@ -78,6 +78,13 @@ impl Diagnostic {
         self.hints.push(hint.into());
         self
     }
+
+    /// An error that does not say what to do gets this hint.
+    #[must_use]
+    pub(crate) fn or_hint(self, hint: &str) -> Self {
+        let advised = self.severity == Severity::Warning || !self.hints.is_empty();
+        if advised { self } else { self.hint(hint) }
+    }
 }
 
 /// A named text; turns byte offsets into lines and columns.

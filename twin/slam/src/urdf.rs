@@ -149,6 +149,16 @@ pub struct MimicDescription {
 
 /// Reads a URDF. Opens no file: meshes are named, not read.
 pub fn parse(source: &Source) -> Result<RobotDescription, Vec<Diagnostic>> {
+    let advised = |problems: Vec<Diagnostic>| {
+        problems.into_iter().map(|problem| problem.or_hint(PLAIN_URDF)).collect()
+    };
+    read(source).map_err(advised)
+}
+
+/// What to do about a problem that says no better.
+const PLAIN_URDF: &str = "URDF is XML in metres and radians; expand xacro before";
+
+fn read(source: &Source) -> Result<RobotDescription, Vec<Diagnostic>> {
     let elements = xml::elements(&source.text).map_err(|problem| vec![*problem])?;
     let mut problems = check::values(&elements);
     if !problems.is_empty() {

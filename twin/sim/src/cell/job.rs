@@ -1,6 +1,7 @@
 //! The job: what is to be printed, resolved against the cell, in SI and part axes.
 
 use slam::Span;
+pub use slam::document::{Follow, Interpolation, Tilt};
 
 use super::machine::Cell;
 use crate::pose::{Point, Pose, Vector};
@@ -121,28 +122,6 @@ impl Flow {
     }
 }
 
-/// What the nozzle axis follows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Follow {
-    /// The strand, within the tilt's limits.
-    Tangent,
-    /// The vertical of the bed.
-    Vertical,
-    /// The normal of the form below.
-    SurfaceNormal,
-    /// The strand's own directions.
-    Given,
-}
-
-/// Shape of the tilt bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tilt {
-    /// One bound on the angle from the vertical.
-    Cone,
-    /// Tilts about the bed's x and y apart.
-    PerAxis,
-}
-
 /// Rotation about the nozzle's own axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spin {
@@ -165,15 +144,6 @@ pub struct Orientation {
     pub tilt_max_rad: f64,
     /// Rotation about its axis.
     pub spin: Spin,
-}
-
-/// How the controller moves between points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Straight lines of the TCP.
-    Linear,
-    /// Straight lines in joint space.
-    Joint,
 }
 
 /// Process values of one strand.

@@ -58,9 +58,7 @@ impl Cell {
     pub fn world_from_tip(&self, bed_from_tool: &Pose) -> Pose {
         match self.mode {
             Mode::ToolOnFlange => self.bed.pose * bed_from_tool * self.tool_pose.inverse(),
-            Mode::BedOnFlange => {
-                self.tool_pose * bed_from_tool.inverse() * self.bed.pose.inverse()
-            }
+            Mode::BedOnFlange => self.tool_pose * bed_from_tool.inverse() * self.bed.pose.inverse(),
         }
     }
 }
@@ -146,8 +144,8 @@ pub struct Bed {
 impl Bed {
     /// The bed as a box in bed axes.
     pub fn shape(&self) -> Shape {
-        let [x, y, z] = self.size_m.map(|size| size / 2.0);
-        Shape::Box { pose: Pose::translation(0.0, 0.0, -z), half_m: [x, y, z] }
+        let half_m = Vector::from(self.size_m) / 2.0;
+        Shape::Box { pose: Pose::translation(0.0, 0.0, -half_m.z), half_m }
     }
 }
 

@@ -6,9 +6,7 @@ use slam::tool_file::{ShapeFile, ToolFile};
 use slam::urdf::{LinkDescription, ShapeDescription};
 
 use super::job::Limits;
-use super::machine::{
-    Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart,
-};
+use super::machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
 use super::resolve::Parts;
 use crate::interval::Interval;
 use crate::kinematics::{self, Chain, ChainJoint, JointKind};
@@ -32,7 +30,8 @@ pub(super) fn cell(parts: &Parts<'_>) -> Result<Cell, String> {
         let n_home = file.home_deg.len();
         return Err(format!("home_deg has {n_home} values, the arm has {} joints", joints.len()));
     }
-    let home: Vec<f64> = file.home_deg.iter().zip(&joints).map(|(q, joint)| q * joint_scale(joint)).collect();
+    let home: Vec<f64> =
+        file.home_deg.iter().zip(&joints).map(|(q, joint)| q * joint_scale(joint)).collect();
     if let Some((joint, q)) =
         joints.iter().zip(&file.home_deg).zip(&home).find_map(|((&joint, deg), q)| {
             (!(joint.lower..=joint.upper).contains(q)).then_some((joint, deg))
@@ -56,7 +55,10 @@ pub(super) fn cell(parts: &Parts<'_>) -> Result<Cell, String> {
         obstacles: file
             .obstacle
             .iter()
-            .map(|obstacle| Obstacle { name: obstacle.name.clone(), shapes: shapes(&obstacle.shape) })
+            .map(|obstacle| Obstacle {
+                name: obstacle.name.clone(),
+                shapes: shapes(&obstacle.shape),
+            })
             .collect(),
         home,
         gravity_m_s2: Vector::from(file.gravity_m_s2),
@@ -84,7 +86,8 @@ fn robot(parts: &Parts<'_>) -> Result<Robot, String> {
     let (file, urdf) = (parts.cell, parts.urdf);
     let held = held_values(parts)?;
     let held: Vec<(&str, f64)> = held.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    let tree = kinematics::from_urdf(urdf, &file.base, &file.tip, &held).map_err(|error| error.to_string())?;
+    let tree = kinematics::from_urdf(urdf, &file.base, &file.tip, &held)
+        .map_err(|error| error.to_string())?;
     let mut links = Vec::new();
     for carried in &tree.links {
         let Some(link) = urdf.links.iter().find(|link| link.name == carried.link) else { continue };
@@ -100,7 +103,10 @@ fn robot(parts: &Parts<'_>) -> Result<Robot, String> {
     }
     let stated = parts.robot.map_or(&[][..], |robot| robot.touching_links.as_slice());
     let acceleration = |joint: &ChainJoint| {
-        parts.robot.and_then(|robot| robot.joints.get(&joint.name)).and_then(|joint| joint.acceleration)
+        parts
+            .robot
+            .and_then(|robot| robot.joints.get(&joint.name))
+            .and_then(|joint| joint.acceleration)
     };
     Ok(Robot {
         name: parts.robot.map_or_else(|| urdf.name.clone(), |robot| robot.name.clone()),
@@ -134,7 +140,9 @@ fn touching(
     urdf: &slam::urdf::RobotDescription,
     stated: &[[String; 2]],
 ) -> Vec<[usize; 2]> {
-    let parent_of = |name: &str| urdf.joints.iter().find(|joint| joint.child == name).map(|joint| &joint.parent);
+    let parent_of = |name: &str| {
+        urdf.joints.iter().find(|joint| joint.child == name).map(|joint| &joint.parent)
+    };
     let index = |name: &str| links.iter().position(|link| link.name == name);
     let mut pairs = Vec::new();
     for (i, link) in links.iter().enumerate() {
@@ -167,16 +175,15 @@ fn link_shapes(link: &LinkDescription, parts: &Parts<'_>) -> Vec<Shape> {
     for collision in &link.collisions {
         let axes = pose::from_xyz_rpy(collision.xyz_m, collision.rpy_rad);
         shapes.push(match &collision.shape {
-            ShapeDescription::Box { size_m } => Shape::Box { pose: axes, half_m: size_m.map(|size| size / 2.0) },
-            ShapeDescription::Cylinder { radius_m, length_m } => Shape::Cone {
-                from: axes * Point::new(0.0, 0.0, -length_m / 2.0),
-                to: axes * Point::new(0.0, 0.0, length_m / 2.0),
-                radius_from_m: *radius_m,
-                radius_to_m: *radius_m,
-            },
+            ShapeDescription::Box { size_m } => {
+                Shape::Box { pose: axes, half_m: Vector::from(*size_m) / 2.0 }
+            }
+            ShapeDescription::Cylinder { radius_m, length_m } => {
+                let end = |z_m: f64| axes * Point::new(0.0, 0.0, z_m);
+                Shape::cylinder(end(-length_m / 2.0), end(length_m / 2.0), *radius_m)
+            }
             ShapeDescription::Sphere { radius_m } => {
-                let centre = axes * Point::origin();
-                Shape::Capsule { a: centre, b: centre, radius_m: *radius_m }
+                Shape::sphere(axes * Point::origin(), *radius_m)
             }
             ShapeDescription::Capsule { radius_m, length_m } => Shape::Capsule {
                 a: axes * Point::new(0.0, 0.0, -length_m / 2.0),
@@ -190,7 +197,9 @@ fn link_shapes(link: &LinkDescription, parts: &Parts<'_>) -> Vec<Shape> {
                     points: mesh
                         .vertices
                         .iter()
-                        .map(|v| axes * Point::new(v[0] * scale[0], v[1] * scale[1], v[2] * scale[2]))
+                        .map(|v| {
+                            axes * Point::new(v[0] * scale[0], v[1] * scale[1], v[2] * scale[2])
+                        })
                         .collect(),
                 },
             },
@@ -206,12 +215,16 @@ fn tool(file: &ToolFile) -> Tool {
         parts: file
             .part
             .iter()
-            .map(|part| ToolPart { name: part.name.clone(), nozzle: part.nozzle, shapes: shapes(&part.shape) })
+            .map(|part| ToolPart {
+                name: part.name.clone(),
+                nozzle: part.nozzle,
+                shapes: shapes(&part.shape),
+            })
             .collect(),
-        air_jet: file.air_jet.as_ref().map(|jet| Jet {
-            speed_m_s: triple(jet.speed_m_s),
-            reach_m: jet.reach_mm / 1e3,
-        }),
+        air_jet: file
+            .air_jet
+            .as_ref()
+            .map(|jet| Jet { speed_m_s: triple(jet.speed_m_s), reach_m: jet.reach_mm / 1e3 }),
         light_ring: file.light_ring.as_ref().map(|ring| LightRing {
             leds: ring.leds,
             distance_m: ring.distance_mm / 1e3,
@@ -267,9 +280,11 @@ fn shapes(file: &ShapeFile) -> Vec<Shape> {
         }
         ShapeFile::Box { size_mm, xyz_mm, rpy_deg } => vec![Shape::Box {
             pose: place(&PoseFile { xyz_mm: *xyz_mm, rpy_deg: *rpy_deg }),
-            half_m: size_mm.map(|size| size / 2e3),
+            half_m: Vector::from(*size_mm) / 2e3,
         }],
-        ShapeFile::Hull { points_mm } => vec![Shape::Hull { points: points_mm.iter().map(point).collect() }],
+        ShapeFile::Hull { points_mm } => {
+            vec![Shape::Hull { points: points_mm.iter().map(point).collect() }]
+        }
         ShapeFile::Ring { radius_mm, tube_radius_mm, z_mm } => {
             ring(radius_mm / 1e3, tube_radius_mm / 1e3, z_mm / 1e3)
         }

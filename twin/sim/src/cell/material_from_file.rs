@@ -64,11 +64,13 @@ fn setting(file: &SettingFile) -> Setting {
             cured_modulus_pa: interval(cured_modulus_pa),
             linear_shrinkage: interval(linear_shrinkage),
         }),
-        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage } => Setting::TwoPart(TwoPart {
-            set_time_s: interval(set_time_s),
-            viscosity_pa_s: interval(viscosity_pa_s),
-            linear_shrinkage: interval(linear_shrinkage),
-        }),
+        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage } => {
+            Setting::TwoPart(TwoPart {
+                set_time_s: interval(set_time_s),
+                viscosity_pa_s: interval(viscosity_pa_s),
+                linear_shrinkage: interval(linear_shrinkage),
+            })
+        }
     }
 }
 

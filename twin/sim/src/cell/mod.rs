@@ -5,12 +5,12 @@ mod machine;
 mod machine_from_files;
 mod material_from_file;
 mod resolve;
+#[cfg(test)]
+mod tests;
 
 pub use job::{
-    Air, At, End, Event, Flow, Follow, Form, Interpolation, Join, Job, Limits, LoadCase, On, Orientation,
-    PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+    Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On,
+    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
 };
-pub use machine::{
-    Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart,
-};
+pub use machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
 pub use resolve::{Parts, resolve};

@@ -14,8 +14,8 @@ use slam::urdf::RobotDescription;
 use slam::{Diagnostic, Span, Spanned};
 
 use super::job::{
-    Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On, Orientation,
-    PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+    Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On,
+    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
 };
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
@@ -47,11 +47,13 @@ pub struct Parts<'a> {
 pub fn resolve(document: &Document, parts: &Parts<'_>) -> Result<Job, Vec<Diagnostic>> {
     let cell = machine_from_files::cell(parts).map_err(|fault| {
         let message = format!("cell `{}` cannot be used: {fault}", document.cell.value);
-        vec![Diagnostic::error(document.cell.span, message)]
+        let hint = "the cell, its robot and its tool must fit each other";
+        vec![Diagnostic::error(document.cell.span, message).hint(hint)]
     })?;
     let mut resolver = Resolver { document, cell: &cell, problems: Vec::new() };
     let forms = resolver.forms(parts.form_meshes);
-    let strands: Vec<Strand> = document.strands.iter().map(|strand| resolver.strand(strand)).collect();
+    let strands: Vec<Strand> =
+        document.strands.iter().map(|strand| resolver.strand(strand)).collect();
     let steps = resolver.steps();
     let limits = resolver.limits();
     let problems = resolver.problems;
@@ -93,6 +95,7 @@ impl Resolver<'_> {
 
     fn forms(&mut self, meshes: &[Mesh]) -> Vec<Form> {
         assert_eq!(meshes.len(), self.document.forms.len(), "one mesh per form");
+        let bed_pa = self.cell.bed.adhesion_pa.nominal;
         let form = |(form, mesh): (&doc::Form, &Mesh)| {
             let part_from_mesh = placement(&form.placement);
             let vertices =
@@ -101,7 +104,7 @@ impl Resolver<'_> {
                 id: form.id.value.clone(),
                 vertices,
                 triangles: mesh.triangles.clone(),
-                adhesion_pa: form.adhesion_mpa.map_or(0.0, |mpa| mpa.value * 1e6),
+                adhesion_pa: form.adhesion_mpa.map_or(bed_pa, |mpa| mpa.value * 1e6),
             }
         };
         self.document.forms.iter().zip(meshes).map(form).collect()
@@ -116,11 +119,11 @@ impl Resolver<'_> {
     }
 
     fn strand(&mut self, strand: &doc::Strand) -> Strand {
-        let points: Vec<Point> = strand.points_mm.iter().map(|p| Point::from(mm(p.value))).collect();
-        let directions = strand
-            .directions
-            .as_ref()
-            .map(|rows| rows.iter().map(|row| Vector::from(row.value).normalize()).collect::<Vec<_>>());
+        let points: Vec<Point> =
+            strand.points_mm.iter().map(|p| Point::from(mm(p.value))).collect();
+        let directions = strand.directions.as_ref().map(|rows| {
+            rows.iter().map(|row| Vector::from(row.value).normalize()).collect::<Vec<_>>()
+        });
         let settings = self.settings(strand, directions.is_some());
         Strand {
             id: strand.id.value.clone(),
@@ -141,59 +144,42 @@ impl Resolver<'_> {
     fn settings(&mut self, strand: &doc::Strand, has_directions: bool) -> Settings {
         let (own, common) = (&strand.process, &self.document.process);
         let extruder = &self.cell.extruder;
-        let pick = |own: Option<Spanned<f64>>, common: Option<Spanned<f64>>, default: f64| {
-            own.or(common).map_or(default, |value| value.value)
-        };
-        let speed_m_s = pick(own.speed_mm_s, common.speed_mm_s, extruder.speed_m_s * 1e3) / 1e3;
-        let follow = own.orientation.follow.or(common.orientation.follow);
-        let follow_value = match follow.map(|follow| follow.value) {
-            None if has_directions => Follow::Given,
-            None | Some(doc::Follow::Vertical) => Follow::Vertical,
-            Some(doc::Follow::Tangent) => Follow::Tangent,
-            Some(doc::Follow::SurfaceNormal) => Follow::SurfaceNormal,
-            Some(doc::Follow::Given) => Follow::Given,
-        };
-        let settings = Settings {
-            speed_m_s,
-            flow: Flow::Diameter(extruder.diameter_m),
+        let (approach_mm, bead_m) = (extruder.approach_m * 1e3, extruder.diameter_m);
+        let speed_mm_s = pick(own.speed_mm_s, common.speed_mm_s, extruder.speed_m_s * 1e3);
+        let interpolation = own.interpolation.or(common.interpolation);
+        Settings {
+            speed_m_s: speed_mm_s / 1e3,
+            flow: self.flow(own.flow.or(common.flow)).unwrap_or(Flow::Diameter(bead_m)),
             prime_s: pick(own.prime_s, common.prime_s, 0.0),
             lights_after_m: pick(own.lights_after_mm, common.lights_after_mm, 0.0) / 1e3,
             overrun_m: pick(own.overrun_mm, common.overrun_mm, 0.0) / 1e3,
             dwell_s: pick(own.dwell_s, common.dwell_s, 0.0),
-            approach_m: pick(own.approach_mm, common.approach_mm, extruder.approach_m * 1e3) / 1e3,
-            retract_m: pick(own.retract_mm, common.retract_mm, extruder.approach_m * 1e3) / 1e3,
-            orientation: Orientation {
-                follow: follow_value,
-                tilt: match own.orientation.tilt.or(common.orientation.tilt).map(|tilt| tilt.value) {
-                    Some(doc::Tilt::PerAxis) => Tilt::PerAxis,
-                    Some(doc::Tilt::Cone) | None => Tilt::Cone,
-                },
-                tilt_from_rad: pick(
-                    own.orientation.tilt_from_deg,
-                    common.orientation.tilt_from_deg,
-                    TILT_FROM_DEG,
-                )
-                .to_radians(),
-                tilt_max_rad: pick(
-                    own.orientation.tilt_max_deg,
-                    common.orientation.tilt_max_deg,
-                    TILT_MAX_DEG,
-                )
-                .to_radians(),
-                spin: match own.orientation.spin.or(common.orientation.spin).map(|spin| spin.value) {
-                    Some(doc::Spin::HeldDeg(deg)) => Spin::Held(deg.to_radians()),
-                    Some(doc::Spin::Free) | None => Spin::Free,
-                },
+            approach_m: pick(own.approach_mm, common.approach_mm, approach_mm) / 1e3,
+            retract_m: pick(own.retract_mm, common.retract_mm, approach_mm) / 1e3,
+            orientation: self.orientation(strand, has_directions),
+            interpolation: interpolation.map_or(Interpolation::Linear, |way| way.value),
+        }
+    }
+
+    fn orientation(&mut self, strand: &doc::Strand, has_directions: bool) -> Orientation {
+        let (own, common) = (&strand.process.orientation, &self.document.process.orientation);
+        let asked = own.follow.or(common.follow);
+        let silent = if has_directions { Follow::Given } else { Follow::Vertical };
+        let follow = asked.map_or(silent, |follow| follow.value);
+        let span = asked.map_or(strand.span, |follow| follow.span);
+        self.follow_is_possible(follow, span, strand);
+        let from_deg = pick(own.tilt_from_deg, common.tilt_from_deg, TILT_FROM_DEG);
+        let max_deg = pick(own.tilt_max_deg, common.tilt_max_deg, TILT_MAX_DEG);
+        Orientation {
+            follow,
+            tilt: own.tilt.or(common.tilt).map_or(Tilt::Cone, |tilt| tilt.value),
+            tilt_from_rad: from_deg.to_radians(),
+            tilt_max_rad: max_deg.to_radians(),
+            spin: match own.spin.or(common.spin).map(|spin| spin.value) {
+                Some(doc::Spin::HeldDeg(deg)) => Spin::Held(deg.to_radians()),
+                Some(doc::Spin::Free) | None => Spin::Free,
             },
-            interpolation: match own.interpolation.or(common.interpolation).map(|i| i.value) {
-                Some(doc::Interpolation::Joint) => Interpolation::Joint,
-                Some(doc::Interpolation::Linear) | None => Interpolation::Linear,
-            },
-        };
-        let flow = own.flow.or(common.flow);
-        let follow_span = follow.map_or(strand.span, |follow| follow.span);
-        self.follow_is_possible(follow_value, follow_span, strand);
-        Settings { flow: self.flow(flow).unwrap_or(settings.flow), ..settings }
+        }
     }
 
     fn follow_is_possible(&mut self, follow: Follow, span: Span, strand: &doc::Strand) {
@@ -201,11 +187,20 @@ impl Resolver<'_> {
         let id = &strand.id.value;
         if follow == Follow::Given && strand.directions.is_none() {
             let message = format!("strand `{id}` is to follow given directions but has none");
-            self.error(span, message, "add `directions`, one per point, or choose another `follow`");
+            self.error(
+                span,
+                message,
+                "add `directions`, one per point, or choose another `follow`",
+            );
         }
         if follow == Follow::SurfaceNormal && !on_form {
-            let message = format!("strand `{id}` is to follow a surface normal but lies on no form");
-            self.error(span, message, "say `\"on\": \"<id of a form>\"`, or choose another `follow`");
+            let message =
+                format!("strand `{id}` is to follow a surface normal but lies on no form");
+            self.error(
+                span,
+                message,
+                "say `\"on\": \"<id of a form>\"`, or choose another `follow`",
+            );
         }
     }
 
@@ -233,14 +228,20 @@ impl Resolver<'_> {
     fn joint_rows(&mut self, rows: &[Vec<f64>], span: Span) -> Vec<Vec<f64>> {
         let joints = machine_from_files::free_joints(&self.cell.robot.arm.chain);
         let n_joints = joints.len();
-        if let Some((row, values)) = rows.iter().enumerate().find(|(_, row)| row.len() != n_joints) {
-            let message =
-                format!("row {row} has {} joint values, the arm has {n_joints} joints", values.len());
+        if let Some((row, values)) = rows.iter().enumerate().find(|(_, row)| row.len() != n_joints)
+        {
+            let message = format!(
+                "row {row} has {} joint values, the arm has {n_joints} joints",
+                values.len()
+            );
             self.error(span, message, "joints that the cell holds are left out of the rows");
             return Vec::new();
         }
-        let scale: Vec<f64> = joints.iter().map(|joint| machine_from_files::joint_scale(joint)).collect();
-        rows.iter().map(|row| row.iter().zip(&scale).map(|(q, scale)| q * scale).collect()).collect()
+        let scale: Vec<f64> =
+            joints.iter().map(|joint| machine_from_files::joint_scale(joint)).collect();
+        rows.iter()
+            .map(|row| row.iter().zip(&scale).map(|(q, scale)| q * scale).collect())
+            .collect()
     }
 
     fn on(&self, on: Option<&Spanned<doc::On>>) -> On {
@@ -286,7 +287,9 @@ impl Resolver<'_> {
         let mut steps = Vec::with_capacity(sequence.len());
         for step in sequence {
             steps.push(match &step.value {
-                doc::Step::Strand(id) => Step::Print(self.strand_index(id).expect("slam checked the id")),
+                doc::Step::Strand(id) => {
+                    Step::Print(self.strand_index(id).expect("slam checked the id"))
+                }
                 doc::Step::Move(rows) => Step::Move(self.joint_rows(rows, step.span)),
                 doc::Step::Wait(s) => Step::Wait(*s),
                 doc::Step::Release(id) => {
@@ -300,7 +303,8 @@ impl Resolver<'_> {
 
     fn limits(&self) -> Limits {
         let (asked, default) = (&self.document.limits, &self.cell.limits);
-        let pick = |asked: Option<Spanned<f64>>, default: f64| asked.map_or(default, |mm| mm.value / 1e3);
+        let pick =
+            |asked: Option<Spanned<f64>>, default: f64| asked.map_or(default, |mm| mm.value / 1e3);
         Limits {
             clearance_m: pick(asked.clearance_mm, default.clearance_m),
             node_miss_m: pick(asked.node_miss_mm, default.node_miss_m),
@@ -309,6 +313,11 @@ impl Resolver<'_> {
             ..default.clone()
         }
     }
+}
+
+/// The strand's own value, else the job's, else the default.
+fn pick(own: Option<Spanned<f64>>, common: Option<Spanned<f64>>, default: f64) -> f64 {
+    own.or(common).map_or(default, |value| value.value)
 }
 
 fn profile_point(point: &doc::ProfilePoint) -> ProfilePoint {

@@ -74,7 +74,8 @@ impl Bodies {
             .collect();
         let n_joints = cell.robot.arm.chain.joints().len();
         // The tool is bolted to the last link and may touch it and the one before.
-        let carries_tool = |link: &LinkBody| link.carrier.is_some_and(|joint| joint + 2 >= n_joints);
+        let carries_tool =
+            |link: &LinkBody| link.carrier.is_some_and(|joint| joint + 2 >= n_joints);
         Self {
             link_pairs: pairs(links.len(), &cell.robot.touching),
             links_off_flange: (0..links.len()).filter(|&k| !carries_tool(&links[k])).collect(),
@@ -86,7 +87,10 @@ impl Bodies {
                 .forms
                 .iter()
                 .map(|form| {
-                    let mesh = Shape::Mesh { vertices: form.vertices.clone(), triangles: form.triangles.clone() };
+                    let mesh = Shape::Mesh {
+                        vertices: form.vertices.clone(),
+                        triangles: form.triangles.clone(),
+                    };
                     Body::new(&form.id, &[mesh])
                 })
                 .collect(),
@@ -115,7 +119,13 @@ impl Body {
     ///
     /// Where the axis itself lies in the body the bead's radius is returned as overlap: it is at
     /// least that deep.
-    pub(super) fn to_bead(&self, pose: &Pose, piece: &[Point; 2], bead_m: f64, horizon_m: f64) -> f64 {
+    pub(super) fn to_bead(
+        &self,
+        pose: &Pose,
+        piece: &[Point; 2],
+        bead_m: f64,
+        horizon_m: f64,
+    ) -> f64 {
         let reach_m = horizon_m + bead_m;
         let mut least = f64::INFINITY;
         let segment = Segment::new(parry::point(&piece[0]), parry::point(&piece[1]));
@@ -125,7 +135,8 @@ impl Body {
                 continue;
             }
             let distance = query::distance(&parry::pose(pose), &*solid.shape, &identity, &segment);
-            least = least.min(distance.map_or(f64::INFINITY, |d| f64::from(d.distance)) - bead_m);
+            least = least
+                .min(distance.map_or(f64::INFINITY, |d| parry::from_length(d.distance)) - bead_m);
         }
         least - parry::ROUNDING_M
     }
@@ -135,16 +146,29 @@ impl Body {
     ///
     /// Pairs of solids are taken by the gap of their bounding spheres, nearest first, until that
     /// gap alone is beyond what was found.
-    pub(super) fn to_body(&self, pose: &Pose, other: &Self, other_pose: &Pose, horizon_m: f64) -> f64 {
-        let bound_m = gap(self.centre, self.radius_m, pose, other.centre, other.radius_m, other_pose);
+    pub(super) fn to_body(
+        &self,
+        pose: &Pose,
+        other: &Self,
+        other_pose: &Pose,
+        horizon_m: f64,
+    ) -> f64 {
+        let bound_m =
+            gap(self.centre, self.radius_m, pose, other.centre, other.radius_m, other_pose);
         if bound_m > horizon_m {
             return bound_m;
         }
         let mut pairs: Vec<(f64, &Solid, &Solid)> = Vec::new();
         for solid in &self.solids {
             for second in &other.solids {
-                let bound_m =
-                    gap(solid.centre, solid.radius_m, pose, second.centre, second.radius_m, other_pose);
+                let bound_m = gap(
+                    solid.centre,
+                    solid.radius_m,
+                    pose,
+                    second.centre,
+                    second.radius_m,
+                    other_pose,
+                );
                 pairs.push((bound_m, solid, second));
             }
         }
@@ -156,11 +180,13 @@ impl Body {
                 break;
             }
             let distance = query::distance(&at, &*solid.shape, &other_at, &*second.shape);
-            let mut clearance_m = distance.map_or(bound_m, |distance| f64::from(distance.distance));
+            let mut clearance_m =
+                distance.map_or(bound_m, |distance| parry::from_length(distance.distance));
             if clearance_m <= 0.0
-                && let Ok(Some(contact)) = query::contact(&at, &*solid.shape, &other_at, &*second.shape, 0.0)
+                && let Ok(Some(contact)) =
+                    query::contact(&at, &*solid.shape, &other_at, &*second.shape, 0.0)
             {
-                clearance_m = f64::from(contact.dist).min(0.0);
+                clearance_m = parry::from_length(contact.dist).min(0.0);
             }
             least = least.min(clearance_m);
         }
@@ -169,7 +195,8 @@ impl Body {
 
     /// Bound on how far any point of the body moved between two poses, m.
     pub(super) fn moved(&self, from: &Pose, to: &Pose) -> f64 {
-        (to * self.centre - from * self.centre).norm() + from.rotation.angle_to(&to.rotation) * self.radius_m
+        (to * self.centre - from * self.centre).norm()
+            + from.rotation.angle_to(&to.rotation) * self.radius_m
     }
 }
 
@@ -183,7 +210,8 @@ impl Solid {
 /// A sphere about the middle of the box of `points`.
 fn sphere(points: &[Point]) -> (Point, f64) {
     let first = points.first().copied().unwrap_or_else(Point::origin);
-    let (low, high) = points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+    let (low, high) =
+        points.iter().fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
     let centre = nalgebra::center(&low, &high);
     (centre, points.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max))
 }
@@ -194,6 +222,7 @@ fn gap(a: Point, a_m: f64, a_pose: &Pose, b: Point, b_m: f64, b_pose: &Pose) -> 
 
 fn to_piece(point: &Point, piece: &[Point; 2]) -> f64 {
     let along = piece[1] - piece[0];
-    let share = ((point - piece[0]).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let share = ((point - piece[0]).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE))
+        .clamp(0.0, 1.0);
     (point - (piece[0] + along * share)).norm()
 }

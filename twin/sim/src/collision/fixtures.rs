@@ -15,13 +15,37 @@ impl<'a> Look<'a> {
             let body = &tool.body;
             let on_bed = tool.nozzle && self.may_touch_bed(now);
             let on_form = tool.nozzle && self.may_touch_form(now);
-            self.pair(Code::C205, body, &now.world_from_tool, &bodies.bed, &now.world_from_bed, on_bed, now);
+            self.pair(
+                Code::C205,
+                body,
+                &now.world_from_tool,
+                &bodies.bed,
+                &now.world_from_bed,
+                on_bed,
+                now,
+            );
             for form in &bodies.forms {
-                self.pair(Code::C205, body, &now.world_from_tool, form, &world_from_part, on_form, now);
+                self.pair(
+                    Code::C205,
+                    body,
+                    &now.world_from_tool,
+                    form,
+                    &world_from_part,
+                    on_form,
+                    now,
+                );
             }
             if self.job.cell.mode == Mode::ToolOnFlange {
                 for obstacle in &bodies.obstacles {
-                    self.pair(Code::C205, body, &now.world_from_tool, obstacle, &Pose::identity(), false, now);
+                    self.pair(
+                        Code::C205,
+                        body,
+                        &now.world_from_tool,
+                        obstacle,
+                        &Pose::identity(),
+                        false,
+                        now,
+                    );
                 }
             }
         }
@@ -35,7 +59,15 @@ impl<'a> Look<'a> {
         for link in bodies.links.iter().filter(|link| link.carrier.is_some()) {
             let pose = link_pose(link, now);
             if !bed_rides {
-                self.pair(Code::C205, &link.body, &pose, &bodies.bed, &now.world_from_bed, false, now);
+                self.pair(
+                    Code::C205,
+                    &link.body,
+                    &pose,
+                    &bodies.bed,
+                    &now.world_from_bed,
+                    false,
+                    now,
+                );
                 for form in &bodies.forms {
                     self.pair(Code::C205, &link.body, &pose, form, &world_from_part, false, now);
                 }
@@ -46,7 +78,15 @@ impl<'a> Look<'a> {
         }
         if bed_rides {
             for obstacle in &bodies.obstacles {
-                self.pair(Code::C205, &bodies.bed, &now.world_from_bed, obstacle, &Pose::identity(), false, now);
+                self.pair(
+                    Code::C205,
+                    &bodies.bed,
+                    &now.world_from_bed,
+                    obstacle,
+                    &Pose::identity(),
+                    false,
+                    now,
+                );
             }
         }
     }
@@ -56,24 +96,51 @@ impl<'a> Look<'a> {
         let bodies = self.bodies;
         for &[i, j] in &bodies.link_pairs {
             let (a, b) = (&bodies.links[i], &bodies.links[j]);
-            self.pair(Code::C206, &a.body, &link_pose(a, now), &b.body, &link_pose(b, now), false, now);
+            self.pair(
+                Code::C206,
+                &a.body,
+                &link_pose(a, now),
+                &b.body,
+                &link_pose(b, now),
+                false,
+                now,
+            );
         }
         let bed_rides = self.job.cell.mode == Mode::BedOnFlange;
         for (index, link) in bodies.links.iter().enumerate() {
             let pose = link_pose(link, now);
             if bed_rides || bodies.links_off_flange.contains(&index) {
                 for tool in &bodies.tool {
-                    self.pair(Code::C206, &tool.body, &now.world_from_tool, &link.body, &pose, false, now);
+                    self.pair(
+                        Code::C206,
+                        &tool.body,
+                        &now.world_from_tool,
+                        &link.body,
+                        &pose,
+                        false,
+                        now,
+                    );
                 }
             }
             if bed_rides && bodies.links_off_flange.contains(&index) {
-                self.pair(Code::C206, &bodies.bed, &now.world_from_bed, &link.body, &pose, false, now);
+                self.pair(
+                    Code::C206,
+                    &bodies.bed,
+                    &now.world_from_bed,
+                    &link.body,
+                    &pose,
+                    false,
+                    now,
+                );
             }
         }
     }
 
     /// Measures two bodies. Those that may touch may press into each other by half a bead.
-    #[allow(clippy::too_many_arguments, reason = "two bodies, each with its pose, and how they are judged")]
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "two bodies, each with its pose, and how they are judged"
+    )]
     fn pair(
         &mut self,
         code: Code,
@@ -86,7 +153,8 @@ impl<'a> Look<'a> {
     ) {
         let known = self.apart.get(&(body.name.as_str(), other.name.as_str()));
         let still_apart = known.is_some_and(|known| {
-            let moved_m = body.moved(&known.pose, pose) + other.moved(&known.other_pose, other_pose);
+            let moved_m =
+                body.moved(&known.pose, pose) + other.moved(&known.other_pose, other_pose);
             known.clearance_m - moved_m > self.horizon_m
         });
         if still_apart {
@@ -111,11 +179,14 @@ impl<'a> Look<'a> {
 
     /// Whether the nozzle works on the bed here: its strand lies on it, or ends on it nearby.
     fn may_touch_bed(&self, now: &Now) -> bool {
-        let Some(strand) = self.leg.strand.map(|strand| &self.job.strands[strand]) else { return false };
+        let Some(strand) = self.leg.strand.map(|strand| &self.job.strands[strand]) else {
+            return false;
+        };
         if self.leg.phase == Phase::Transit {
             return false;
         }
-        let ends = [(strand.start.join, strand.points.first()), (strand.end.join, strand.points.last())];
+        let ends =
+            [(strand.start.join, strand.points.first()), (strand.end.join, strand.points.last())];
         let low_m = 2.0 * self.half_bead_m();
         let grounded = |(join, point): (Option<Join>, Option<&Point>)| {
             point.is_some_and(|point| {
@@ -130,7 +201,9 @@ impl<'a> Look<'a> {
     }
 
     fn may_touch_form(&self, now: &Now) -> bool {
-        let Some(strand) = self.leg.strand.map(|strand| &self.job.strands[strand]) else { return false };
+        let Some(strand) = self.leg.strand.map(|strand| &self.job.strands[strand]) else {
+            return false;
+        };
         let near_end = |join: Option<Join>, point: Option<&Point>| {
             matches!(join, Some(Join::Form(_)))
                 && point.is_some_and(|point| (point - now.tip).norm() <= self.reach_of_touch_m())

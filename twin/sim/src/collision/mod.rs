@@ -65,12 +65,29 @@ pub fn check(
             (look.findings, look.nearest)
         })
         .collect();
+    if motion.legs.iter().any(|leg| !leg.moments.is_empty()) {
+        far(job, findings);
+    }
     let mut nearest: Option<Nearest> = None;
     for (found, near) in parts {
         findings.absorb(found);
         nearest = nearer(nearest, near);
     }
     nearest
+}
+
+/// What is further apart than the horizon was looked at too, and scores as that far.
+fn far(job: &Job, findings: &mut Findings) {
+    let limit = job.limits.clearance_m;
+    let check = crate::finding::Check {
+        code: Code::C201,
+        measured: Interval::exact(2.0 * limit),
+        limit,
+        warn_limit: None,
+        site: Site::default(),
+        time_s: None,
+    };
+    findings.check(check, || unreachable!("twice the limit passes"));
 }
 
 fn nearer(a: Option<Nearest>, b: Option<Nearest>) -> Option<Nearest> {
@@ -88,6 +105,8 @@ struct Look<'a> {
     leg: &'a Leg,
     /// Contacts of the strand being approached, printed or left.
     zone_contacts: Vec<&'a Contact>,
+    /// Where the nozzle leaves the strand, on a retract.
+    left: Option<Point>,
     /// Bodies further apart than this are not measured.
     horizon_m: f64,
     near: Vec<u32>,
@@ -126,10 +145,11 @@ impl<'a> Look<'a> {
         contacts: &'a [Contact],
         leg: &'a Leg,
     ) -> Self {
-        let order = leg.strand.and_then(|strand| {
-            deposit.strands.iter().position(|printed| printed.strand == strand)
-        });
-        let concerns = |contact: &&Contact| order.is_some_and(|order| contact.orders.contains(&order));
+        let order = leg
+            .strand
+            .and_then(|strand| deposit.strands.iter().position(|printed| printed.strand == strand));
+        let concerns =
+            |contact: &&Contact| order.is_some_and(|order| contact.orders.contains(&order));
         let zoned = leg.phase != Phase::Transit;
         Self {
             job,
@@ -137,6 +157,7 @@ impl<'a> Look<'a> {
             deposit,
             leg,
             zone_contacts: contacts.iter().filter(concerns).filter(|_| zoned).collect(),
+            left: None,
             horizon_m: 2.0 * job.limits.clearance_m,
             near: Vec::new(),
             apart: BTreeMap::new(),
@@ -147,6 +168,9 @@ impl<'a> Look<'a> {
 
     fn leg(&mut self) {
         let last = self.leg.moments.len().saturating_sub(1);
+        if self.leg.phase == Phase::Retract && !self.leg.moments.is_empty() {
+            self.left = Some(self.now(0).tip);
+        }
         for k in 0..self.leg.moments.len() {
             let now = self.now(k);
             self.tool_and_strands(&now);
@@ -181,7 +205,14 @@ impl<'a> Look<'a> {
     }
 
     /// Records one measured clearance of two named bodies.
-    fn measured(&mut self, code: Code, clearance_m: f64, limit_m: f64, names: [&str; 2], now: &Now) {
+    fn measured(
+        &mut self,
+        code: Code,
+        clearance_m: f64,
+        limit_m: f64,
+        names: [&str; 2],
+        now: &Now,
+    ) {
         if limit_m > 0.0 {
             let bodies = names.map(str::to_owned);
             let here = Nearest { clearance_m, bodies, time_s: now.time_s };
@@ -233,7 +264,8 @@ mod words {
         phase: &str,
         strand: Option<usize>,
     ) -> Words {
-        let of = strand.map_or_else(String::new, |strand| format!(" of strand `{}`", job.strands[strand].id));
+        let of = strand
+            .map_or_else(String::new, |strand| format!(" of strand `{}`", job.strands[strand].id));
         let how = if clearance_m < 0.0 {
             format!("{body} overlaps {other} by {:.2} mm", -clearance_m * 1e3)
         } else {
@@ -244,8 +276,12 @@ mod words {
             Code::C201 | Code::C202 => format!(
                 "print `{other}` after this strand, tilt the nozzle away, or move one of them by {missing_mm:.1} mm"
             ),
-            Code::C204 => "tilt the nozzle to trail the strand, or print it in the other direction".to_owned(),
-            Code::C203 | Code::C206 => "turn the spin, or give the strand another posture".to_owned(),
+            Code::C204 => {
+                "tilt the nozzle to trail the strand, or print it in the other direction".to_owned()
+            }
+            Code::C203 | Code::C206 => {
+                "turn the spin, or give the strand another posture".to_owned()
+            }
             _ => format!("move the part by {missing_mm:.1} mm, or tilt the nozzle away"),
         };
         Words { message: format!("{how} in the {phase}{of}"), hint }

@@ -21,7 +21,8 @@ impl Look<'_> {
     pub(super) fn arm_and_strands(&mut self, now: &Now) {
         let bodies = self.bodies;
         for link in &bodies.links {
-            let world_from_carrier = link.carrier.map_or_else(Pose::identity, |joint| now.carriers[joint]);
+            let world_from_carrier =
+                link.carrier.map_or_else(Pose::identity, |joint| now.carriers[joint]);
             let part_from_link = now.part_from_world * world_from_carrier * link.carrier_from_link;
             self.body_and_strands(&link.body, &part_from_link, false, Code::C203, now);
         }
@@ -64,31 +65,49 @@ impl Look<'_> {
             if least <= self.horizon_m {
                 let strand = &self.job.strands[deposit.strands[order].strand];
                 let code = if in_progress && code != Code::C203 { Code::C204 } else { code };
-                self.measured(code, least, self.job.limits.clearance_m, [&body.name, &strand.id], now);
+                self.measured(
+                    code,
+                    least,
+                    self.job.limits.clearance_m,
+                    [&body.name, &strand.id],
+                    now,
+                );
             }
         }
         self.near = near;
     }
 
     /// Centres of the touch zones on the strand of this order.
-    fn zones(&self, order: usize, in_progress: bool, nozzle: bool, now: &Now, zones: &mut Vec<Point>) {
+    fn zones(
+        &self,
+        order: usize,
+        in_progress: bool,
+        nozzle: bool,
+        now: &Now,
+        zones: &mut Vec<Point>,
+    ) {
         zones.clear();
         if in_progress {
             // The strand leaves the nozzle here; every part of the tool sees it come.
             zones.push(now.tip);
         } else if nozzle {
-            let concerned = self.zone_contacts.iter().filter(|contact| contact.orders.contains(&order));
+            let concerned =
+                self.zone_contacts.iter().filter(|contact| contact.orders.contains(&order));
             zones.extend(concerned.map(|contact| contact.middle()));
-            // The strand just finished is left where it ended.
-            if self.leg.phase == Phase::Retract && order + 1 == self.leg.printed {
-                zones.extend(self.deposit.strands[order].as_printed.last());
+            // The strand just finished may be touched where the nozzle leaves it.
+            if order + 1 == self.leg.printed {
+                zones.extend(self.left);
             }
         }
     }
 }
 
 /// The part of a segment that is there when the nozzle stands at `at_m` of its strand.
-fn printed_so_far(segment: &crate::deposit::Segment, in_progress: bool, at_m: f64) -> Option<Piece> {
+fn printed_so_far(
+    segment: &crate::deposit::Segment,
+    in_progress: bool,
+    at_m: f64,
+) -> Option<Piece> {
     if !in_progress || segment.at_m[1] <= at_m {
         return Some(segment.ends);
     }

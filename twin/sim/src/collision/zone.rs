@@ -36,7 +36,8 @@ fn cut(piece: Piece, centre: &Point, radius_m: f64) -> [Option<Piece>; 2] {
     let along = piece[1] - piece[0];
     let from = piece[0] - centre;
     // |from + s·along|² = radius²
-    let (a, b, c) = (along.norm_squared(), from.dot(&along), from.norm_squared() - radius_m * radius_m);
+    let (a, b, c) =
+        (along.norm_squared(), from.dot(&along), from.norm_squared() - radius_m * radius_m);
     let discriminant = b * b - a * c;
     if a <= f64::MIN_POSITIVE || discriminant <= 0.0 {
         return [(c > 0.0).then_some(piece), None];

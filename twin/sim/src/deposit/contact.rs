@@ -45,8 +45,7 @@ pub fn contacts(deposit: &Deposit) -> Vec<Contact> {
     let mut all = Vec::new();
     let mut near = Vec::new();
     let mut by_pair: BTreeMap<usize, Vec<Contact>> = BTreeMap::new();
-    let mut of_strand = deposit.segments.chunk_by(|a, b| a.order == b.order);
-    while let Some(segments) = of_strand.next() {
+    for segments in deposit.segments.chunk_by(|a, b| a.order == b.order) {
         by_pair.clear();
         for segment in segments {
             touching(deposit, segment, &mut near, &mut by_pair);
@@ -84,10 +83,14 @@ fn touching(
             continue;
         }
         let [s, t] = closest(&segment.ends, &other.ends);
-        let point = |segment: &Segment, share: f64| segment.ends[0] + (segment.ends[1] - segment.ends[0]) * share;
+        let point = |segment: &Segment, share: f64| {
+            segment.ends[0] + (segment.ends[1] - segment.ends[0]) * share
+        };
         let points = [point(segment, s), point(other, t)];
         if (points[1] - points[0]).norm() <= TOUCH_SHARE * (segment.radius_m + other.radius_m) {
-            let at = |segment: &Segment, share: f64| segment.at_m[0] + (segment.at_m[1] - segment.at_m[0]) * share;
+            let at = |segment: &Segment, share: f64| {
+                segment.at_m[0] + (segment.at_m[1] - segment.at_m[0]) * share
+            };
             by_pair.entry(other.order).or_default().push(Contact {
                 orders: [segment.order, other.order],
                 at_m: [at(segment, s), at(other, t)],
@@ -112,7 +115,11 @@ pub fn closest(first: &[Point; 2], second: &[Point; 2]) -> [f64; 2] {
     }
     let b = d1.dot(&d2);
     let denominator = a * e - b * b;
-    let s = if denominator > 1e-12 * a * e { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
+    let s = if denominator > 1e-12 * a * e {
+        ((b * f - c * e) / denominator).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let t = (b * s + f) / e;
     if t < 0.0 {
         [(-c / a).clamp(0.0, 1.0), 0.0]

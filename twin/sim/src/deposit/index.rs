@@ -25,7 +25,8 @@ const EDGE_M: std::ops::RangeInclusive<f64> = 2e-3..=0.1;
 impl Index {
     /// Indexes `segments` by position in the slice.
     pub fn new(segments: &[Segment]) -> Self {
-        let total_m: f64 = segments.iter().map(|s| (s.ends[1] - s.ends[0]).amax() + 2.0 * s.radius_m).sum();
+        let total_m: f64 =
+            segments.iter().map(|s| (s.ends[1] - s.ends[0]).amax() + 2.0 * s.radius_m).sum();
         let mean_m = total_m / segments.len().max(1) as f64;
         let edge_m = mean_m.clamp(*EDGE_M.start(), *EDGE_M.end());
         let mut index = Self {
@@ -37,10 +38,11 @@ impl Index {
         for (k, segment) in segments.iter().enumerate() {
             let (low, high) = segment.bounds();
             let range = index.range(low, high);
-            for axis in 0..3 {
-                index.occupied[0][axis] = index.occupied[0][axis].min(range[0][axis]);
-                index.occupied[1][axis] = index.occupied[1][axis].max(range[1][axis]);
-            }
+            let [lowest, highest] = index.occupied;
+            index.occupied = [
+                std::array::from_fn(|axis| lowest[axis].min(range[0][axis])),
+                std::array::from_fn(|axis| highest[axis].max(range[1][axis])),
+            ];
             for cell in cells(range) {
                 index.cells.entry(cell).or_default().push(k as u32);
             }
@@ -57,7 +59,8 @@ impl Index {
             std::array::from_fn(|axis| from[axis].max(self.occupied[0][axis])),
             std::array::from_fn(|axis| to[axis].min(self.occupied[1][axis])),
         ];
-        let n_cells: f64 = (0..3).map(|axis| f64::from((cut[1][axis] - cut[0][axis] + 1).max(0))).product();
+        let n_cells: f64 =
+            (0..3).map(|axis| f64::from((cut[1][axis] - cut[0][axis] + 1).max(0))).product();
         // A box that covers more cells than are occupied gets everything: the caller looks closer.
         if n_cells > self.cells.len() as f64 {
             found.extend(0..self.n_segments);

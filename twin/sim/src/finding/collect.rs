@@ -61,8 +61,18 @@ impl Findings {
             let Words { message, hint } = words();
             let Check { code, measured, site, time_s, .. } = check;
             let unit = code.unit();
-            let finding =
-                Finding { code, severity, site, time_s, measured, limit, unit, message, hint, count };
+            let finding = Finding {
+                code,
+                severity,
+                site,
+                time_s,
+                measured,
+                limit,
+                unit,
+                message,
+                hint,
+                count,
+            };
             self.folded.insert(key, finding);
         } else if let Some(finding) = self.folded.get_mut(&key) {
             finding.count = count;

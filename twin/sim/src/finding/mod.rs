@@ -4,6 +4,8 @@ mod collect;
 mod pages;
 mod register;
 mod score;
+#[cfg(test)]
+mod tests;
 
 pub use collect::{Check, Findings, Words};
 pub use register::{Bound, Code, Family};

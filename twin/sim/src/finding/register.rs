@@ -139,7 +139,10 @@ impl Code {
     /// The family it belongs to.
     pub fn family(self) -> Family {
         let letter = self.as_str().chars().next();
-        Family::ALL.into_iter().find(|family| Some(family.letter()) == letter).expect("every letter is a family")
+        Family::ALL
+            .into_iter()
+            .find(|family| Some(family.letter()) == letter)
+            .expect("every letter is a family")
     }
 
     /// What it is, in a few words.

@@ -70,7 +70,8 @@ pub struct Built {
 impl Built {
     /// Supports once `n_printed` strands are there and the forms still hold as given.
     pub fn supports(&self, n_printed: usize, held_forms: &[bool]) -> Vec<Support> {
-        let on_bed = self.grounded.iter().filter(|(_, order)| *order < n_printed).map(|(node, _)| *node);
+        let on_bed =
+            self.grounded.iter().filter(|(_, order)| *order < n_printed).map(|(node, _)| *node);
         let on_form = self
             .formed
             .iter()
@@ -90,7 +91,8 @@ impl Built {
     /// The frame with members changed one by one.
     pub(super) fn with_members(&self, change: impl Fn(&Member) -> Member) -> Frame {
         let members = self.frame.members().iter().map(change).collect();
-        Frame::new(self.frame.nodes().to_vec(), members).expect("a sound frame with sound constants")
+        Frame::new(self.frame.nodes().to_vec(), members)
+            .expect("a sound frame with sound constants")
     }
 
     /// Strength of each member.
@@ -152,7 +154,8 @@ pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandL
         touches.sort_by(|a, b| a.at_m.total_cmp(&b.at_m).then(a.contact.cmp(&b.contact)));
         builder.strand(order, touches);
     }
-    let frame = Frame::new(builder.nodes, builder.members).expect("stations are apart and laws are sound");
+    let frame =
+        Frame::new(builder.nodes, builder.members).expect("stations are apart and laws are sound");
     Built {
         frame,
         born: builder.born,
@@ -236,13 +239,17 @@ impl Builder<'_> {
                 a.angle(&b) > STRAIGHT_RAD
             };
             if corner {
-                stations.push(Station { at_m: printed.at_m[k], point: *point, touches: Vec::new() });
+                stations.push(Station {
+                    at_m: printed.at_m[k],
+                    point: *point,
+                    touches: Vec::new(),
+                });
             }
         }
         for touch in touches {
-            let nearest = stations
-                .iter()
-                .position(|station| (station.at_m - touch.at_m).abs() <= self.snap_m(order, station, same_m));
+            let nearest = stations.iter().position(|station| {
+                (station.at_m - touch.at_m).abs() <= self.snap_m(order, station, same_m)
+            });
             if let Some(k) = nearest {
                 stations[k].touches.push(*touch);
             } else {

@@ -50,7 +50,8 @@ pub(super) fn landings(
     let by_shrinkage = if printed.laws.iter().all(|law| law.strain == 0.0) {
         None
     } else {
-        let weightless = |planned: &Planned| Stage { gravity_m_s2: [0.0; 3], ..planned.stage.clone() };
+        let weightless =
+            |planned: &Planned| Stage { gravity_m_s2: [0.0; 3], ..planned.stage.clone() };
         let stages: Vec<Stage> = plan.iter().map(weightless).collect();
         let ask = Ask { staged: true, strengths: &[], keep: &keep };
         Some(solve_stages(&built.frame, &stages, ask)?)
@@ -66,8 +67,9 @@ pub(super) fn landings(
         let Some(before) = before else { continue };
         let at = |state: Option<&StageState>| displacement(state, landing.node);
         let frame_m = at(by_gravity[before].staged.as_ref());
-        let shrinkage_m =
-            by_shrinkage.as_ref().map_or_else(Vector::zeros, |records| at(records[before].staged.as_ref()));
+        let shrinkage_m = by_shrinkage
+            .as_ref()
+            .map_or_else(Vector::zeros, |records| at(records[before].staged.as_ref()));
         let landing = landing.sum(job, frame_m, shrinkage_m, at(push.one_shot.as_ref()));
         judge(job, printed, built, &landing, findings);
         landings.push(landing);
@@ -121,14 +123,16 @@ fn push_stages(
         let strand = printed.deposit.strands[order].strand;
         let axis = nozzle_axis(job, printed, strand);
         for (at_end, &node) in [(false, &ends[0]), (true, &ends[1])] {
-            let is_there = built.frame.members()[..before.stage.born].iter().any(|m| m.ends.contains(&node));
+            let is_there =
+                built.frame.members()[..before.stage.born].iter().any(|m| m.ends.contains(&node));
             let is_held = before.stage.supports.iter().any(|support| support.node == node);
             if !is_there || is_held {
                 continue;
             }
             let f = axis * force_n;
             let load = NodeLoad { node, load: [f.x, f.y, f.z, 0.0, 0.0, 0.0] };
-            let stage = Stage { gravity_m_s2: [0.0; 3], at_nodes: vec![load], ..before.stage.clone() };
+            let stage =
+                Stage { gravity_m_s2: [0.0; 3], at_nodes: vec![load], ..before.stage.clone() };
             stages.push((Bare { printed: order, strand, at_end, node }, stage));
         }
     }
@@ -143,20 +147,28 @@ fn nozzle_axis(job: &Job, printed: &Printed<'_>, strand: usize) -> Vector {
     let q = moment.map_or(&cell.home[..], |moment| &moment.q[..]);
     let world_from_tip = cell.robot.arm.chain.forward(q);
     let world_from_part = cell.world_from_bed(&world_from_tip) * job.bed_from_part;
-    let axis = world_from_part.inverse() * (cell.world_from_tool(&world_from_tip) * Vector::z());
-    axis
+    world_from_part.inverse() * (cell.world_from_tool(&world_from_tip) * Vector::z())
 }
 
-fn judge(job: &Job, printed: &Printed<'_>, built: &Built, landing: &Landing, findings: &mut Findings) {
+fn judge(
+    job: &Job,
+    printed: &Printed<'_>,
+    built: &Built,
+    landing: &Landing,
+    findings: &mut Findings,
+) {
     let push = landing.push_length_m;
     let measured = Interval::new(
         landing.sum_m,
         (landing.sum_m - (push.nominal - push.low) - landing.accuracy_m).max(0.0),
         landing.sum_m + (push.high - push.nominal) + landing.accuracy_m,
     );
-    let length_m = printed.deposit.strands.iter().find(|p| p.strand == landing.strand).map_or(0.0, |p| {
-        p.at_m.last().copied().unwrap_or(0.0)
-    });
+    let length_m = printed
+        .deposit
+        .strands
+        .iter()
+        .find(|p| p.strand == landing.strand)
+        .map_or(0.0, |p| p.at_m.last().copied().unwrap_or(0.0));
     let at_m = if landing.at_end { length_m } else { 0.0 };
     let site = Site {
         strand: Some(landing.strand),

@@ -4,7 +4,9 @@ use super::Built;
 use crate::cell::{Job, LoadCase};
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::pose::{Point, Vector};
-use crate::structure::{Frame, Load, NodeLoad, SolveError, Strength, Support, first_yield_factor, solve};
+use crate::structure::{
+    Frame, Load, NodeLoad, SolveError, Strength, Support, first_yield_factor, solve,
+};
 
 /// What a load case came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +53,8 @@ fn solve_case(job: &Job, built: &Built, strengths: &[Strength], case: &LoadCase)
             NodeLoad { node: seats.at(&force.at), load: [f.x, f.y, f.z, 0.0, 0.0, 0.0] }
         })
         .collect();
-    let gravity: [f64; 3] = job.gravity_in_part(&job.cell.robot.arm.chain.forward(&job.cell.home)).into();
+    let gravity: [f64; 3] =
+        job.gravity_in_part(&job.cell.robot.arm.chain.forward(&job.cell.home)).into();
     match under(&seats, &supports, forces, gravity) {
         Ok((deflection_m, first_yield)) => {
             LoadResult { name: case.name.clone(), deflection_m, first_yield, fault: None }
@@ -79,8 +82,13 @@ fn under(
     let deflection_m = moved
         .map(|(a, b)| Vector::new(a[0] + b[0], a[1] + b[1], a[2] + b[2]).norm())
         .fold(0.0, f64::max);
-    let factor =
-        first_yield_factor(&seats.frame, &seats.strengths, (&resting, gravity), (&loaded, [0.0; 3])).ok();
+    let factor = first_yield_factor(
+        &seats.frame,
+        &seats.strengths,
+        (&resting, gravity),
+        (&loaded, [0.0; 3]),
+    )
+    .ok();
     Ok((deflection_m, factor.filter(|factor| factor.is_finite())))
 }
 
@@ -95,7 +103,9 @@ impl Seats {
     fn at(&mut self, place: &Point) -> usize {
         let nodes = self.frame.nodes();
         let far = |node: &Point| (node - place).norm();
-        let node = (0..nodes.len()).min_by(|&a, &b| far(&nodes[a]).total_cmp(&far(&nodes[b]))).unwrap_or(0);
+        let node = (0..nodes.len())
+            .min_by(|&a, &b| far(&nodes[a]).total_cmp(&far(&nodes[b])))
+            .unwrap_or(0);
         let members = self.frame.members().iter().enumerate();
         let on_member = members
             .map(|(member, each)| {
@@ -132,16 +142,21 @@ fn judge(job: &Job, result: &LoadResult, findings: &mut Findings) {
     let check = Check {
         code: Code::S406,
         // Young's modulus is the material number that deflection depends on, as 1/E.
-        measured: job.material.youngs_modulus_pa.map(|e| {
-            result.deflection_m * job.material.youngs_modulus_pa.nominal / e
-        }),
+        measured: job
+            .material
+            .youngs_modulus_pa
+            .map(|e| result.deflection_m * job.material.youngs_modulus_pa.nominal / e),
         limit: job.limits.deflection_m,
         warn_limit: None,
         site: Site::default(),
         time_s: None,
     };
     findings.check(check, || Words {
-        message: format!("load case `{}` bends the part by {:.3} mm", result.name, result.deflection_m * 1e3),
+        message: format!(
+            "load case `{}` bends the part by {:.3} mm",
+            result.name,
+            result.deflection_m * 1e3
+        ),
         hint: "add strands along the load path, or thicken them".to_owned(),
     });
 }

@@ -22,7 +22,7 @@ use crate::structure::{Ask, SolveError, Stage, StageRecord, Strength, solve_stag
 
 /// Displacements of every node at every stage are kept up to this many numbers; beyond it the
 /// landing check (S401) is left out and the report says so.
-const KEEP_MAX: usize = 60_000_000;
+const KEEP_MAX: usize = 15_000_000;
 
 /// One stage of the print as the report tells it.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +75,11 @@ pub struct Printed<'a> {
 ///
 /// # Errors
 /// A frame too large to index.
-pub fn grow(job: &Job, printed: &Printed<'_>, findings: &mut Findings) -> Result<Growth, SolveError> {
+pub fn grow(
+    job: &Job,
+    printed: &Printed<'_>,
+    findings: &mut Findings,
+) -> Result<Growth, SolveError> {
     let built = build(job, printed.deposit, printed.contacts, printed.laws);
     let plan = plan(job, printed, &built);
     let strengths: Vec<Strength> = built.strengths(printed.laws);
@@ -85,7 +89,8 @@ pub fn grow(job: &Job, printed: &Printed<'_>, findings: &mut Findings) -> Result
     let stages: Vec<Stage> = plan.iter().map(|planned| planned.stage.clone()).collect();
     let ask = Ask { staged: true, strengths: &strengths, keep: &keep };
     let records = solve_stages(&built.weightless_strain(), &stages, ask)?;
-    let results = plan.iter().zip(&records).map(|(planned, record)| result(planned, record)).collect();
+    let results =
+        plan.iter().zip(&records).map(|(planned, record)| result(planned, record)).collect();
     for (planned, record) in plan.iter().zip(&records) {
         floats(job, printed, &built, planned, record, findings);
     }
@@ -116,9 +121,16 @@ fn plan(job: &Job, printed: &Printed<'_>, built: &Built) -> Vec<Planned> {
     for n_printed in 0..=motion.printings.len() {
         if let Some(printing) = n_printed.checked_sub(1).map(|k| motion.printings[k]) {
             let stage = stage(job, printed, built, n_printed, &held_forms);
-            plan.push(Planned { printed: n_printed, released: None, time_s: printing.end_s, stage });
+            plan.push(Planned {
+                printed: n_printed,
+                released: None,
+                time_s: printing.end_s,
+                stage,
+            });
         }
-        while let Some(&&(form, _, time_s)) = releases.peek().filter(|release| release.1 == n_printed) {
+        while let Some(&&(form, _, time_s)) =
+            releases.peek().filter(|release| release.1 == n_printed)
+        {
             releases.next();
             held_forms[form] = false;
             let stage = stage(job, printed, built, n_printed, &held_forms);
@@ -128,7 +140,13 @@ fn plan(job: &Job, printed: &Printed<'_>, built: &Built) -> Vec<Planned> {
     plan
 }
 
-fn stage(job: &Job, printed: &Printed<'_>, built: &Built, n_printed: usize, held_forms: &[bool]) -> Stage {
+fn stage(
+    job: &Job,
+    printed: &Printed<'_>,
+    built: &Built,
+    n_printed: usize,
+    held_forms: &[bool],
+) -> Stage {
     Stage {
         born: built.born[n_printed],
         supports: built.supports(n_printed, held_forms),

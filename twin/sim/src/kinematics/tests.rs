@@ -17,8 +17,11 @@ mod measures;
 mod recognition;
 mod tree;
 
+/// A row of [`ARMS`].
+type ArmRow = (&'static str, &'static str, &'static [(&'static str, f64)]);
+
 /// Closed-form arms with a URDF in the shared data: file, tip, joints held.
-const ARMS: [(&str, &str, &[(&str, f64)]); 7] = [
+const ARMS: [ArmRow; 7] = [
     ("kuka_kr6r900sixx", "tool0", &[]),
     ("kuka_kr10r1100sixx", "tool0", &[]),
     ("kroshu_kr6_r900_2", "tool0", &[]),

@@ -21,7 +21,14 @@ impl Planner<'_> {
     }
 
     /// Postures along a straight line of the nozzle, orientation kept.
-    fn line(&self, from: Point, nozzle: Vector, along: Vector, q: &Posture, length_m: f64) -> Vec<Posture> {
+    fn line(
+        &self,
+        from: Point,
+        nozzle: Vector,
+        along: Vector,
+        q: &Posture,
+        length_m: f64,
+    ) -> Vec<Posture> {
         let n_steps = (length_m / STRAIGHT_STEP_M).ceil() as usize;
         let spin_rad = self.spin_of(from, nozzle, q);
         let elbow_rad = self.arm.elbow_angle(q).unwrap_or(0.0);
@@ -31,7 +38,15 @@ impl Planner<'_> {
         for k in 1..=n_steps {
             let point = from + along * (length_m * k as f64 / n_steps as f64);
             solutions.clear();
-            super::solve(self.job, point, nozzle, spin_rad, elbow_rad, Some(&before), &mut solutions);
+            super::solve(
+                self.job,
+                point,
+                nozzle,
+                spin_rad,
+                elbow_rad,
+                Some(&before),
+                &mut solutions,
+            );
             match strand::nearest(&solutions, &before) {
                 Some(next) if next.distance(&before) < 0.5 => before = next,
                 _ => break,
@@ -45,8 +60,10 @@ impl Planner<'_> {
     fn spin_of(&self, point: Point, nozzle: Vector, q: &Posture) -> f64 {
         let world_from_tip = self.arm.chain.forward(q);
         let cell = &self.job.cell;
-        let actual = cell.world_from_bed(&world_from_tip).inverse() * cell.world_from_tool(&world_from_tip);
-        let turned = bed_from_tool(self.job, point, nozzle, 0.0).rotation.inverse() * actual.rotation;
+        let actual =
+            cell.world_from_bed(&world_from_tip).inverse() * cell.world_from_tool(&world_from_tip);
+        let turned =
+            bed_from_tool(self.job, point, nozzle, 0.0).rotation.inverse() * actual.rotation;
         2.0 * turned.k.atan2(turned.w)
     }
 

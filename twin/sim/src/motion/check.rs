@@ -28,9 +28,16 @@ pub struct StrandMotion {
 const FLIP_SHARE: f64 = 0.5;
 /// A joint that turns further than this between two samples flips.
 const FLIP_RAD: f64 = std::f64::consts::FRAC_PI_2;
+/// Joints that turn less than this do not flip: a nozzle that tilts fast bows its tip off the line.
+const EVEN_RAD: f64 = std::f64::consts::PI / 6.0;
 
 /// Judges the motion; one entry per strand of the job, `None` where nothing is reached.
-pub fn check(job: &Job, paths: &[Path], motion: &Motion, findings: &mut Findings) -> Vec<Option<StrandMotion>> {
+pub fn check(
+    job: &Job,
+    paths: &[Path],
+    motion: &Motion,
+    findings: &mut Findings,
+) -> Vec<Option<StrandMotion>> {
     let mut strands = vec![None; job.strands.len()];
     for leg in &motion.legs {
         if let (Phase::Print, Some(strand)) = (leg.phase, leg.strand) {
@@ -139,7 +146,8 @@ impl Along<'_> {
     fn margin(&self, moment: &Moment, sample: &Sample, findings: &mut Findings) -> f64 {
         let chain = &self.job.cell.robot.arm.chain;
         let margins = limit_margins(chain, &moment.q);
-        let revolute = |axis: usize| chain.joints()[chain.axes()[axis].joint].kind == JointKind::Revolute;
+        let revolute =
+            |axis: usize| chain.joints()[chain.axes()[axis].joint].kind == JointKind::Revolute;
         let worst = (0..chain.dof())
             .filter(|&axis| revolute(axis))
             .min_by(|&a, &b| margins[a].total_cmp(&margins[b]));
@@ -162,20 +170,29 @@ impl Along<'_> {
                     self.id(),
                     sample.at_m * 1e3
                 ),
-                hint: "turn the spin or move the part; a stop met in mid-strand ends the print".to_owned(),
+                hint: "turn the spin or move the part; a stop met in mid-strand ends the print"
+                    .to_owned(),
             });
         }
         margin
     }
 
     /// Joint speed between two moments, as a share of the limit.
-    fn speed(&self, before: &Moment, moment: &Moment, sample: &Sample, findings: &mut Findings) -> f64 {
+    fn speed(
+        &self,
+        before: &Moment,
+        moment: &Moment,
+        sample: &Sample,
+        findings: &mut Findings,
+    ) -> f64 {
         let chain = &self.job.cell.robot.arm.chain;
         let dt_s = (moment.time_s - before.time_s).max(1e-9);
         let share = |axis: usize| {
             (moment.q[axis] - before.q[axis]).abs() / dt_s / chain.axes()[axis].velocity
         };
-        let Some(axis) = (0..chain.dof()).max_by(|&a, &b| share(a).total_cmp(&share(b))) else { return 0.0 };
+        let Some(axis) = (0..chain.dof()).max_by(|&a, &b| share(a).total_cmp(&share(b))) else {
+            return 0.0;
+        };
         let (share, limit) = (share(axis), self.job.limits.joint_speed_share);
         let check = Check {
             code: Code::R105,
@@ -193,13 +210,22 @@ impl Along<'_> {
                 self.id(),
                 sample.at_m * 1e3
             ),
-            hint: format!("print at {:.2} mm/s or slower here", sample.speed_m_s * 1e3 * limit / share),
+            hint: format!(
+                "print at {:.2} mm/s or slower here",
+                sample.speed_m_s * 1e3 * limit / share
+            ),
         });
         share
     }
 
     /// The middle of two postures against the middle of the strand between them.
-    fn between(&self, before: &Moment, moment: &Moment, sample: &Sample, findings: &mut Findings) -> f64 {
+    fn between(
+        &self,
+        before: &Moment,
+        moment: &Moment,
+        sample: &Sample,
+        findings: &mut Findings,
+    ) -> f64 {
         let mut middle = before.q;
         for (value, other) in middle.iter_mut().zip(moment.q.iter()) {
             *value = (*value + other) / 2.0;
@@ -207,7 +233,9 @@ impl Along<'_> {
         let from = self.sample(before);
         let step_m = (sample.point - from.point).norm();
         let deviation_m = (self.tcp(&middle) - center(&from.point, &sample.point)).norm();
-        let flips = deviation_m > FLIP_SHARE * step_m + 1e-6 || moment.q.distance(&before.q) > FLIP_RAD;
+        let turn_rad = moment.q.distance(&before.q);
+        let off_line = deviation_m > FLIP_SHARE * step_m + 1e-6;
+        let flips = turn_rad > FLIP_RAD || (off_line && turn_rad > EVEN_RAD);
         findings.forbid(Code::R104, flips, self.site(sample), Some(moment.time_s), || Words {
             message: format!(
                 "the arm flips on strand `{}` between {:.1} and {:.1} mm: half way the TCP is {:.1} mm off",
@@ -225,7 +253,14 @@ impl Along<'_> {
         if joint { deviation_m } else { 0.0 }
     }
 
-    fn deviation(&self, off_m: f64, moment: &Moment, sample: &Sample, place: &str, findings: &mut Findings) {
+    fn deviation(
+        &self,
+        off_m: f64,
+        moment: &Moment,
+        sample: &Sample,
+        place: &str,
+        findings: &mut Findings,
+    ) {
         let check = Check {
             code: Code::R107,
             measured: Interval::exact(off_m),
@@ -241,7 +276,8 @@ impl Along<'_> {
                 self.id(),
                 sample.at_m * 1e3
             ),
-            hint: "compute the joint path again, with more points or linear interpolation".to_owned(),
+            hint: "compute the joint path again, with more points or linear interpolation"
+                .to_owned(),
         });
     }
 
@@ -255,8 +291,14 @@ impl Along<'_> {
 }
 
 fn nearest_singularity(near: &crate::kinematics::Nearness) -> String {
-    let angle = |name: &str, rad: Option<f64>| rad.map(|rad| (rad, format!("{name} singularity, {:.1}° away", rad.to_degrees())));
-    let candidates = [angle("wrist", near.wrist_rad), angle("elbow", near.elbow_rad), angle("shoulder", near.shoulder_rad)];
+    let angle = |name: &str, rad: Option<f64>| {
+        rad.map(|rad| (rad, format!("{name} singularity, {:.1}° away", rad.to_degrees())))
+    };
+    let candidates = [
+        angle("wrist", near.wrist_rad),
+        angle("elbow", near.elbow_rad),
+        angle("shoulder", near.shoulder_rad),
+    ];
     let nearest = candidates.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
     nearest.map_or_else(|| "edge of its reach".to_owned(), |(_, words)| words)
 }

@@ -69,8 +69,8 @@ impl Fan {
 /// The one spin a machine without rotation can have: that of its tool about the bed's x.
 fn cartesian_spin(job: &Job) -> f64 {
     let world_from_tip = job.cell.robot.arm.chain.forward(&job.cell.home);
-    let bed_from_tool =
-        job.cell.world_from_bed(&world_from_tip).inverse() * job.cell.world_from_tool(&world_from_tip);
+    let bed_from_tool = job.cell.world_from_bed(&world_from_tip).inverse()
+        * job.cell.world_from_tool(&world_from_tip);
     let nozzle = bed_from_tool * nalgebra::Vector3::z();
     let unspun = crate::pose::from_z_axis(
         bed_from_tool.translation.vector.into(),
@@ -81,11 +81,12 @@ fn cartesian_spin(job: &Job) -> f64 {
     2.0 * turned.k.atan2(turned.w)
 }
 
-/// The ladders of all strands that do not bring a joint path of their own.
-pub(super) fn rungs_of(job: &Job, paths: &[Path]) -> Vec<Ladder> {
-    paths
+/// The ladders of these strands; empty for one that brings a joint path of its own.
+pub(super) fn rungs_of(job: &Job, paths: &[Path], strands: &[usize]) -> Vec<Ladder> {
+    strands
         .par_iter()
-        .map(|path| {
+        .map(|&strand| {
+            let path = &paths[strand];
             if job.strands[path.strand].joints.is_some() {
                 return Ladder::default();
             }
@@ -120,7 +121,15 @@ fn candidates(job: &Job, path: &Path, sample: usize, fan: &Fan) -> Vec<Candidate
     for (spin, &spin_rad) in fan.spins_rad.iter().enumerate() {
         for (elbow, &elbow_rad) in fan.elbows_rad.iter().enumerate() {
             solutions.clear();
-            super::solve(job, place.point, place.nozzle, spin_rad, elbow_rad, Some(&job.cell.home), &mut solutions);
+            super::solve(
+                job,
+                place.point,
+                place.nozzle,
+                spin_rad,
+                elbow_rad,
+                Some(&job.cell.home),
+                &mut solutions,
+            );
             found.extend(solutions.iter().map(|solution| Candidate {
                 q: solution.q,
                 branch: solution.branch,
@@ -148,8 +157,9 @@ pub(super) fn climb(ladder: &Ladder, from: &Posture) -> Vec<(usize, usize)> {
     let rungs: Vec<usize> =
         (0..ladder.rungs.len()).filter(|&rung| !ladder.rungs[rung].1.is_empty()).collect();
     let Some(&first) = rungs.first() else { return Vec::new() };
-    // Reaching the strand matters less than staying on it well: a tenth of the travel.
-    let start = |candidate: &Candidate| candidate.cost + 0.1 * travel(from, &candidate.q);
+    // A short way to the strand counts like travel along it: a transit that turns the whole arm
+    // over is the one that hits something.
+    let start = |candidate: &Candidate| candidate.cost + travel(from, &candidate.q);
     let mut costs: Vec<f64> = ladder.rungs[first].1.iter().map(start).collect();
     let mut came_from: Vec<Vec<usize>> = Vec::new();
     for pair in rungs.windows(2) {

@@ -76,17 +76,31 @@ pub struct Motion {
 
 /// Plans the motion of a job along `paths` (one per strand of the job, in its order).
 pub fn plan(job: &Job, paths: &[Path]) -> Motion {
-    let ladders = ladder::rungs_of(job, paths);
     let mut planner = Planner {
         job,
         arm: &job.cell.robot.arm,
-        motion: Motion { legs: Vec::new(), printings: Vec::new(), releases: Vec::new(), total_s: 0.0 },
+        motion: Motion {
+            legs: Vec::new(),
+            printings: Vec::new(),
+            releases: Vec::new(),
+            total_s: 0.0,
+        },
         at: Posture::new(&job.cell.home),
         top_m: 0.0,
     };
+    let order: Vec<usize> = job.print_order().collect();
+    let mut ladders = Vec::new();
     for step in &job.steps {
         match step {
-            Step::Print(strand) => planner.print(&paths[*strand], &ladders[*strand]),
+            Step::Print(strand) => {
+                // Ladders are large: they are made for a batch of strands and dropped after it.
+                let done = planner.motion.printings.len();
+                if done.is_multiple_of(BATCH) {
+                    let batch = &order[done..order.len().min(done + BATCH)];
+                    ladders = ladder::rungs_of(job, paths, batch);
+                }
+                planner.print(&paths[*strand], &ladders[done % BATCH]);
+            }
             Step::Move(rows) => planner.follow(rows),
             Step::Wait(wait_s) => planner.motion.total_s += wait_s,
             Step::Release(form) => {
@@ -98,6 +112,9 @@ pub fn plan(job: &Job, paths: &[Path]) -> Motion {
     }
     planner.motion
 }
+
+/// Strands whose ladders are made at once, in parallel.
+const BATCH: usize = 64;
 
 /// The state of planning: where the arm is, how high the deposit stands.
 struct Planner<'a> {
@@ -124,7 +141,11 @@ impl Planner<'_> {
         let approach = self.straight(start, &q_start, settings.approach_m);
         let q_above = approach.last().copied().unwrap_or(q_start);
         self.transit(path.strand, &q_above);
-        self.cartesian(Phase::Approach, path.strand, approach.iter().rev().copied().chain([q_start]));
+        self.cartesian(
+            Phase::Approach,
+            path.strand,
+            approach.iter().rev().copied().chain([q_start]),
+        );
         self.extrude(path, &postures);
         let q_end = postures.q[last].expect("the last reached sample has a posture");
         let retract = self.straight(end, &q_end, settings.retract_m);
@@ -139,9 +160,10 @@ impl Planner<'_> {
         self.motion.total_s += strand.settings.prime_s + strand.start.dwell_s;
         let start_s = self.motion.total_s;
         let times = strand::times(strand, path);
-        let moments = path.samples.iter().zip(&times).zip(&postures.q).filter_map(|((sample, time_s), q)| {
-            q.map(|q| Moment { time_s: start_s + time_s, at_m: sample.at_m, q })
-        });
+        let moments =
+            path.samples.iter().zip(&times).zip(&postures.q).filter_map(|((sample, time_s), q)| {
+                q.map(|q| Moment { time_s: start_s + time_s, at_m: sample.at_m, q })
+            });
         self.leg(Phase::Print, Some(path.strand), moments.collect(), postures.unreached.clone());
         self.motion.total_s = start_s + times.last().copied().unwrap_or(0.0);
         let end_s = self.motion.total_s;
@@ -184,5 +206,11 @@ fn solve(
     out: &mut Vec<Solution>,
 ) -> Coverage {
     let target = job.cell.world_from_tip(&bed_from_tool(job, point, nozzle, spin_rad));
-    job.cell.robot.arm.inverse(&target, &IkOptions { seed, elbow_rad }, out)
+    let coverage = job.cell.robot.arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
+    // A machine that cannot turn answers for the place alone.
+    out.retain(|solution| solution.rotation_error_rad <= ORIENTATION_RAD);
+    coverage
 }
+
+/// Orientation of the nozzle is kept to this, rad: far below what a print would show.
+const ORIENTATION_RAD: f64 = 1e-3;

@@ -75,7 +75,15 @@ fn searched(job: &Job, path: &Path, ladder: &Ladder, from: &Posture) -> Vec<Opti
             _ => (ladder.fan.spins_rad[at.spin], ladder.fan.elbows_rad[at.elbow]),
         };
         solutions.clear();
-        super::solve(job, sample.point, sample.nozzle, spin_rad, elbow_rad, Some(&before), &mut solutions);
+        super::solve(
+            job,
+            sample.point,
+            sample.nozzle,
+            spin_rad,
+            elbow_rad,
+            Some(&before),
+            &mut solutions,
+        );
         postures[k] = nearest(&solutions, &before);
         before = postures[k].unwrap_or(before);
     }
@@ -106,7 +114,11 @@ fn between(fan: &[f64], from: usize, to: usize, share: f64) -> f64 {
 pub(super) fn times(strand: &Strand, path: &Path) -> Vec<f64> {
     if let Some(times_s) = &strand.times_s {
         let stations = crate::toolpath::stations(&strand.points);
-        return path.samples.iter().map(|sample| interpolate(&stations, times_s, sample.at_m)).collect();
+        return path
+            .samples
+            .iter()
+            .map(|sample| interpolate(&stations, times_s, sample.at_m))
+            .collect();
     }
     let mut time_s = 0.0;
     let mut times = vec![0.0];

@@ -26,7 +26,12 @@ pub struct StrandResult {
 }
 
 /// Makes every strand, in printing order, and judges it.
-pub(super) fn make(job: &Job, paths: &[Path], motion: &Motion, findings: &mut Findings) -> Vec<StrandResult> {
+pub(super) fn make(
+    job: &Job,
+    paths: &[Path],
+    motion: &Motion,
+    findings: &mut Findings,
+) -> Vec<StrandResult> {
     let planned = as_planned(job, paths, motion);
     let contacts = deposit::contacts(&planned);
     let mut by_strand: Vec<Vec<&Contact>> = vec![Vec::new(); planned.strands.len()];
@@ -52,7 +57,8 @@ fn as_planned(job: &Job, paths: &[Path], motion: &Motion) -> Deposit {
         let (speed_m_s, flow_m3_s) = mean_speed_and_flow(&paths[printing.strand]);
         let hot_m = process::bead::drawn_diameter_m(flow_m3_s, speed_m_s);
         let fresh = job.material.fresh_density_kg_m3().nominal;
-        let cold_m = process::bead::cold_diameter_m(hot_m, fresh, job.material.density_kg_m3.nominal);
+        let cold_m =
+            process::bead::cold_diameter_m(hot_m, fresh, job.material.density_kg_m3.nominal);
         Printed {
             strand: printing.strand,
             at_m: crate::toolpath::stations(&points),
@@ -72,7 +78,8 @@ pub(super) fn as_printed(job: &Job, motion: &Motion, strands: &[StrandResult]) -
         let as_planned = job.strands[printing.strand].points.clone();
         let at_m = crate::toolpath::stations(&as_planned);
         let sag_m = shown_sag_m(result);
-        let (fine_m, fine) = if sag_m > 0.0 { refine(&as_planned, &at_m) } else { (at_m, as_planned) };
+        let (fine_m, fine) =
+            if sag_m > 0.0 { refine(&as_planned, &at_m) } else { (at_m, as_planned) };
         Printed {
             strand: printing.strand,
             as_printed: deposit::sagged(&fine, &fine_m, sag_m, result.down),
@@ -92,7 +99,8 @@ pub(super) fn as_printed(job: &Job, motion: &Motion, strands: &[StrandResult]) -
 fn shown_sag_m(result: &StrandResult) -> f64 {
     let sag_m = result.outcome.sag_nozzle_m.nominal;
     let radius_m = result.outcome.bead_diameter_m.nominal / 2.0;
-    let matters = result.input.ends != Ends::Resting && sag_m.is_finite() && sag_m > 0.02 * radius_m;
+    let matters =
+        result.input.ends != Ends::Resting && sag_m.is_finite() && sag_m > 0.02 * radius_m;
     if matters { sag_m.min(result.input.span_m / 4.0) } else { 0.0 }
 }
 
@@ -167,7 +175,8 @@ fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> (Ends, f64) {
         return (Ends::Resting, length_m);
     }
     let near_m = 2.0 * printed.radius_m;
-    let touches = |at_m: f64| contacts.iter().any(|contact| (contact.at_m[0] - at_m).abs() <= near_m);
+    let touches =
+        |at_m: f64| contacts.iter().any(|contact| (contact.at_m[0] - at_m).abs() <= near_m);
     let grounded = |join: Option<Join>, point: &Point, at_m: f64| match join {
         Some(Join::Free) => false,
         Some(Join::Bed | Join::Form(_)) => true,
@@ -222,7 +231,11 @@ pub(super) fn law(job: &Job, result: &StrandResult) -> StrandLaw {
         e_pa: outcome.youngs_modulus_pa.nominal,
         poisson: material.poisson.nominal,
         density_kg_m3: material.density_kg_m3.nominal,
-        strain: if result.input.ends == Ends::StartHeld { 0.0 } else { -outcome.free_strain.nominal },
+        strain: if result.input.ends == Ends::StartHeld {
+            0.0
+        } else {
+            -outcome.free_strain.nominal
+        },
         strength_pa: material.strength_pa.nominal,
         bond_fraction: material.bond_fraction.nominal,
     }
@@ -239,20 +252,36 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
     let (limits, outcome) = (&job.limits, &result.outcome);
     if result.input.ends != Ends::Resting {
         this.hold(Code::P301, outcome.sag_nozzle_m, limits.sag_m, None, findings, |mm| {
-            (format!("sags {mm} behind the nozzle before it is set"), slower(job, limits.sag_m, outcome))
+            (
+                format!("sags {mm} behind the nozzle before it is set"),
+                slower(job, limits.sag_m, outcome),
+            )
         });
         this.hold(Code::P303, outcome.sag_set_m, limits.sag_m, None, findings, |mm| {
-            (format!("sags {mm} under its own weight once set"), "shorten the span or thicken the bead".to_owned())
+            (
+                format!("sags {mm} under its own weight once set"),
+                "shorten the span or thicken the bead".to_owned(),
+            )
         });
     }
     // A melt may set far behind the nozzle as long as it does not sag there.
     let sets_by_light_or_clock = !matches!(job.material.setting, Setting::Thermoplastic(_));
     if sets_by_light_or_clock && result.input.ends != Ends::Resting {
-        this.hold(Code::P306, outcome.set_distance_m, limits.set_distance_m, None, findings, |mm| {
-            let share = limits.set_distance_m / outcome.set_distance_m.nominal;
-            let speed = result.input.speed_m_s * 1e3 * share;
-            (format!("sets {mm} behind the nozzle"), format!("print at {speed:.2} mm/s, or light it harder"))
-        });
+        this.hold(
+            Code::P306,
+            outcome.set_distance_m,
+            limits.set_distance_m,
+            None,
+            findings,
+            |mm| {
+                let share = limits.set_distance_m / outcome.set_distance_m.nominal;
+                let speed = result.input.speed_m_s * 1e3 * share;
+                (
+                    format!("sets {mm} behind the nozzle"),
+                    format!("print at {speed:.2} mm/s, or light it harder"),
+                )
+            },
+        );
     }
     if result.input.ends == Ends::StartHeld {
         this.hold(Code::P304, outcome.end_miss_m, limits.node_miss_m, None, findings, |mm| {
@@ -266,7 +295,10 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
         let radius_m = outcome.bead_diameter_m.nominal / 2.0;
         let [warn, stop] = limits.uncured_share.map(|share| share * radius_m);
         this.hold(Code::P305, core_m, stop, Some(warn), findings, |mm| {
-            let words = format!("keeps an uncured core of {mm} radius in a bead of {:.2} mm", radius_m * 1e3);
+            let words = format!(
+                "keeps an uncured core of {mm} in a bead of {:.2} mm radius",
+                radius_m * 1e3
+            );
             (words, "print slower, add light, or plan a post-cure".to_owned())
         });
     }
@@ -276,7 +308,10 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
 fn slower(job: &Job, limit_m: f64, outcome: &StrandOutcome) -> String {
     let ratio = (limit_m / outcome.sag_nozzle_m.nominal).powf(0.25);
     let jet = if job.cell.tool.air_jet.is_some() { "more air" } else { "an air jet" };
-    format!("print at {:.0} % of this speed or slower (sag goes with its fourth power), or with {jet}", ratio * 100.0)
+    format!(
+        "print at {:.0} % of this speed or slower (sag goes with its fourth power), or with {jet}",
+        ratio * 100.0
+    )
 }
 
 impl Judge<'_> {
@@ -296,14 +331,17 @@ impl Judge<'_> {
         };
         let site = Site::strand(self.result.strand, at_m).at(point);
         let time_s = Some(self.printed.born_s);
-        findings.check(Check { code, measured: finite(measured), limit, warn_limit, site, time_s }, || {
-            let id = &self.job.strands[self.result.strand].id;
-            let Interval { nominal, low, high } = measured;
-            let mm = |m: f64| m * 1e3;
-            let range = format!("{:.2} mm ({:.2} to {:.2})", mm(nominal), mm(low), mm(high));
-            let (message, hint) = words(range);
-            Words { message: format!("strand `{id}` {message}"), hint }
-        });
+        findings.check(
+            Check { code, measured: finite(measured), limit, warn_limit, site, time_s },
+            || {
+                let id = &self.job.strands[self.result.strand].id;
+                let Interval { nominal, low, high } = measured;
+                let mm = |m: f64| m * 1e3;
+                let range = format!("{:.2} mm ({:.2} to {:.2})", mm(nominal), mm(low), mm(high));
+                let (message, hint) = words(range);
+                Words { message: format!("strand `{id}` {message}"), hint }
+            },
+        );
     }
 }
 

@@ -126,7 +126,8 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let contacts = deposit::contacts(&deposit);
 
     progress(Step::Structure);
-    let laws: Vec<growth::StrandLaw> = strands.iter().map(|strand| making::law(&job, strand)).collect();
+    let laws: Vec<growth::StrandLaw> =
+        strands.iter().map(|strand| making::law(&job, strand)).collect();
     let printed = Printed { deposit: &deposit, contacts: &contacts, laws: &laws, motion: &motion };
     let growth = growth::grow(&job, &printed, &mut findings)?;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::StrandResult;
-use crate::cell::{Join, Job};
+use crate::cell::{Job, Join};
 use crate::finding::Phase;
 use crate::growth::Growth;
 use crate::kinematics::Coverage;
@@ -27,7 +27,12 @@ pub struct Totals {
     pub mass_kg: f64,
 }
 
-pub(super) fn totals(job: &Job, motion: &Motion, paths: &[Path], strands: &[StrandResult]) -> Totals {
+pub(super) fn totals(
+    job: &Job,
+    motion: &Motion,
+    paths: &[Path],
+    strands: &[StrandResult],
+) -> Totals {
     let duration = |phase: fn(Phase) -> bool| -> f64 {
         let legs = motion.legs.iter().filter(|leg| phase(leg.phase));
         legs.filter_map(|leg| Some(leg.moments.last()?.time_s - leg.moments.first()?.time_s)).sum()
@@ -61,23 +66,55 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
     let mut list = Vec::new();
     let mut say = |about: &'static str, text: String| list.push(Assumption { about, text });
     let robot = &job.cell.robot;
-    say("motion", "TCP speed is constant along a strand: ramps and corner blending are not modelled.".to_owned());
+    say(
+        "motion",
+        "TCP speed is constant along a strand: ramps and corner blending are not modelled."
+            .to_owned(),
+    );
     if robot.arm.coverage() == Coverage::Sampled {
-        say("motion", format!("postures of {} are searched numerically; some may be missed.", robot.name));
+        say(
+            "motion",
+            format!("postures of {} are searched numerically; some may be missed.", robot.name),
+        );
     }
     say("clearance", "measured at moments at most 4 mm of strand, 5 mm of straight travel or 0.05 rad of a joint apart, arm links at every third; not swept between.".to_owned());
-    say("clearance", format!("the arm's accuracy of ± {:.2} mm is added as an interval; parry3d's f32 rounding of 0.002 mm is subtracted.", robot.accuracy_m * 1e3));
-    say("clearance", format!("the nozzle may touch a strand within {:.1} mm of a place where the strand being printed touches it.", job.limits.touch_zone_m * 1e3));
+    say(
+        "clearance",
+        format!(
+            "the arm's accuracy of ± {:.2} mm is added as an interval; parry3d's f32 rounding of 0.002 mm is subtracted.",
+            robot.accuracy_m * 1e3
+        ),
+    );
+    say(
+        "clearance",
+        format!(
+            "the nozzle may touch a strand within {:.1} mm of a place where the strand being printed touches it.",
+            job.limits.touch_zone_m * 1e3
+        ),
+    );
     if robot.shapes_assumed {
-        say("clearance", format!("link shapes of {} are drawn without a mesh behind them, a little too big.", robot.name));
+        say(
+            "clearance",
+            format!(
+                "link shapes of {} are drawn without a mesh behind them, a little too big.",
+                robot.name
+            ),
+        );
     }
     say("process", "sag behind the nozzle uses closed forms; its growth with the fourth power of speed has no published measurement behind it.".to_owned());
     say("process", "a strand is made with its mean speed and flow.".to_owned());
     say("structure", "linear frame of set strands; what rests on bed or form is clamped until released, not one-sided.".to_owned());
     say("structure", "a strand's contacts with itself are not joined.".to_owned());
-    say("structure", "shrinkage of strands joined at both ends is locked in whole when they are born.".to_owned());
+    say(
+        "structure",
+        "shrinkage of strands joined at both ends is locked in whole when they are born."
+            .to_owned(),
+    );
     if growth.landing_skipped {
-        say("structure", "the frame is too large for the landing check (S401), which was left out.".to_owned());
+        say(
+            "structure",
+            "the frame is too large for the landing check (S401), which was left out.".to_owned(),
+        );
     }
     let refused = |strand: &crate::cell::Strand| matches!(strand.end.join, Some(Join::Free));
     if job.strands.iter().any(refused) {

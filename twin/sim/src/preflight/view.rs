@@ -2,9 +2,9 @@
 
 use super::Preflight;
 use crate::cell::Mode;
-use crate::finding::Severity;
+use crate::finding::{Phase, Severity};
 use crate::pose::Pose;
-use crate::scene::{BedShape, Body, BodyKind, ColourScale, Mark, MarkSeverity, Scene, StrandShape, Shape as Seen};
+use crate::scene::{BedShape, Body, BodyKind, ColourScale, Mark, MarkSeverity, Scene, StrandShape};
 use crate::shape::Shape;
 
 /// Findings marked in the picture; more would hide the part.
@@ -16,9 +16,11 @@ pub fn scene(preflight: &Preflight) -> Scene {
     let job = &preflight.job;
     let cell = &job.cell;
     let chain = &cell.robot.arm.chain;
-    let printing = preflight.motion.legs.iter().rfind(|leg| {
-        leg.phase == crate::finding::Phase::Print && !leg.moments.is_empty()
-    });
+    let printing = preflight
+        .motion
+        .legs
+        .iter()
+        .rfind(|leg| leg.phase == Phase::Print && !leg.moments.is_empty());
     let q = printing.and_then(|leg| leg.moments.last()).map(|moment| moment.q.to_vec());
     let q = q.unwrap_or_else(|| cell.home.clone());
     let world_from_tip = chain.forward(&q);
@@ -34,14 +36,18 @@ pub fn scene(preflight: &Preflight) -> Scene {
         add(&mut bodies, &obstacle.name, BodyKind::Obstacle, Pose::identity(), &obstacle.shapes);
     }
     for form in &job.forms {
-        let mesh = Shape::Mesh { vertices: form.vertices.clone(), triangles: form.triangles.clone() };
+        let mesh =
+            Shape::Mesh { vertices: form.vertices.clone(), triangles: form.triangles.clone() };
         add(&mut bodies, &form.id, BodyKind::Form, world_from_part, &[mesh]);
     }
     let (strands, colour) = strands(preflight, &world_from_part);
     Scene {
         bodies,
         strands,
-        bed: Some(BedShape { pose: world_from_bed, size_m: [cell.bed.size_m[0], cell.bed.size_m[1]] }),
+        bed: Some(BedShape {
+            pose: world_from_bed,
+            size_m: [cell.bed.size_m[0], cell.bed.size_m[1]],
+        }),
         title: format!("{} – {}", job.name, cell.name),
         marks: marks(preflight, &world_from_part),
         colour: Some(colour),
@@ -61,13 +67,24 @@ fn links(preflight: &Preflight, q: &[f64]) -> Vec<Body> {
         } else {
             BodyKind::OtherArm
         };
-        add(&mut bodies, &link.name, kind, world_from_carrier * link.carrier_from_link, &link.shapes);
+        add(
+            &mut bodies,
+            &link.name,
+            kind,
+            world_from_carrier * link.carrier_from_link,
+            &link.shapes,
+        );
     }
     bodies
 }
 
 fn add(bodies: &mut Vec<Body>, name: &str, kind: BodyKind, pose: Pose, shapes: &[Shape]) {
-    bodies.extend(shapes.iter().map(|shape| Body { name: name.to_owned(), kind, pose, shape: seen(shape) }));
+    bodies.extend(shapes.iter().map(|shape| Body {
+        name: name.to_owned(),
+        kind,
+        pose,
+        shape: shape.clone(),
+    }));
 }
 
 fn strands(preflight: &Preflight, world_from_part: &Pose) -> (Vec<StrandShape>, ColourScale) {
@@ -110,7 +127,9 @@ fn marks(preflight: &Preflight, world_from_part: &Pose) -> Vec<Mark> {
         is_new
     });
     for finding in first.into_iter().chain(more) {
-        let Some(point) = finding.site.point else { continue };
+        // In transit the place is the nozzle's, far from what the picture shows.
+        let shown = finding.site.point.filter(|_| finding.site.phase != Some(Phase::Transit));
+        let Some(point) = shown else { continue };
         let at = world_from_part * point;
         if marks.len() < MARKS_MAX && marks.iter().all(|mark| (mark.at - at).norm() > 1e-3) {
             let severity = match finding.severity {
@@ -121,16 +140,4 @@ fn marks(preflight: &Preflight, world_from_part: &Pose) -> Vec<Mark> {
         }
     }
     marks
-}
-
-fn seen(shape: &Shape) -> Seen {
-    match shape.clone() {
-        Shape::Capsule { a, b, radius_m } => Seen::Capsule { a, b, radius_m },
-        Shape::Cone { from, to, radius_from_m, radius_to_m } => {
-            Seen::Cone { from, to, r_from_m: radius_from_m, r_to_m: radius_to_m }
-        }
-        Shape::Box { pose, half_m } => Seen::Box { half_m: half_m.into(), pose },
-        Shape::Hull { points } => Seen::Hull { points },
-        Shape::Mesh { vertices, triangles } => Seen::Mesh { vertices, triangles },
-    }
 }

@@ -9,6 +9,7 @@ pub mod solid;
 mod tests;
 
 use crate::pose::{Point, Pose, Vector};
+pub use crate::shape::Shape;
 
 /// All that one picture can show, in world axes.
 #[derive(Debug, Clone, Default)]
@@ -59,66 +60,6 @@ pub enum BodyKind {
     Form,
     /// A link of an arm that does not print, a torso or a rail.
     OtherArm,
-}
-
-/// Shape of a body in the body's axes, m.
-#[derive(Debug, Clone)]
-pub enum Shape {
-    /// All points within a radius of the line from `a` to `b`; a sphere where they coincide.
-    Capsule {
-        /// One end of the axis.
-        a: Point,
-        /// The other end.
-        b: Point,
-        /// Radius about the axis.
-        radius_m: f64,
-    },
-    /// A frustum with flat ends; a cone where one radius is 0.
-    Cone {
-        /// Centre of one end.
-        from: Point,
-        /// Centre of the other end.
-        to: Point,
-        /// Radius at `from`.
-        r_from_m: f64,
-        /// Radius at `to`.
-        r_to_m: f64,
-    },
-    /// A box about its own axes.
-    Box {
-        /// Half of the edge lengths.
-        half_m: Vector,
-        /// `body_from_box`.
-        pose: Pose,
-    },
-    /// A round bar with flat ends.
-    Cylinder {
-        /// Centre of one end.
-        a: Point,
-        /// Centre of the other end.
-        b: Point,
-        /// Radius about the axis.
-        radius_m: f64,
-    },
-    /// A ball.
-    Sphere {
-        /// Its centre.
-        centre: Point,
-        /// Its radius.
-        radius_m: f64,
-    },
-    /// The convex hull of the points.
-    Hull {
-        /// At least four points that are not in a plane; fewer draw nothing.
-        points: Vec<Point>,
-    },
-    /// A triangle mesh, closed or not.
-    Mesh {
-        /// Corners.
-        vertices: Vec<Point>,
-        /// Indices of corners; a triangle that names one that is not there is left out.
-        triangles: Vec<[u32; 3]>,
-    },
 }
 
 /// A strand as the eye sees it: a round bead along a polyline.

@@ -96,12 +96,8 @@ fn add_body(out: &mut Solids, body: &Body, id: HitId) {
     };
     match &body.shape {
         Shape::Capsule { a, b, radius_m } => out.capsules.push(capsule(a, b, *radius_m)),
-        Shape::Sphere { centre, radius_m } => out.capsules.push(capsule(centre, centre, *radius_m)),
-        Shape::Cylinder { a, b, radius_m } => {
-            frustum(out, &body.pose, (*a, *b), (*radius_m, *radius_m), id);
-        }
-        Shape::Cone { from, to, r_from_m, r_to_m } => {
-            frustum(out, &body.pose, (*from, *to), (*r_from_m, *r_to_m), id);
+        Shape::Cone { from, to, radius_from_m, radius_to_m } => {
+            frustum(out, &body.pose, (*from, *to), (*radius_from_m, *radius_to_m), id);
         }
         Shape::Box { half_m, pose } => {
             let corners = super::Bounds { min: (-half_m).into(), max: (*half_m).into() }.corners();

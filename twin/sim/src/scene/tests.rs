@@ -19,13 +19,13 @@ fn distances_are_closed_form() {
     let (below, above) = (Point::new(0.0, 0.0, -0.5), Point::new(0.0, 0.0, 0.5));
     let half_m = Vector::new(0.3, 0.2, 0.5);
     let cases = [
-        (Shape::Sphere { centre: o, radius_m: 0.3 }, [0.7, 0.7, 0.7], 1e-12),
+        (Shape::sphere(o, 0.3), [0.7, 0.7, 0.7], 1e-12),
         (Shape::Capsule { a: below, b: above, radius_m: 0.3 }, [0.7, 0.7, 0.2], 1e-12),
         (Shape::Box { half_m, pose: Pose::identity() }, [0.7, 0.8, 0.5], 1e-7),
         // a corner of the polygon lies on each axis
-        (Shape::Cylinder { a: below, b: above, radius_m: 0.3 }, [0.7, 0.7, 0.5], 1e-12),
+        (Shape::cylinder(below, above, 0.3), [0.7, 0.7, 0.5], 1e-12),
         (
-            Shape::Cone { from: below, to: above, r_from_m: 0.4, r_to_m: 0.2 },
+            Shape::Cone { from: below, to: above, radius_from_m: 0.4, radius_to_m: 0.2 },
             [0.7, 0.7, 0.5],
             1e-12,
         ),
@@ -106,7 +106,7 @@ fn tree_agrees_with_trying_all() {
 
 #[test]
 fn the_nearer_thing_is_met_and_named() {
-    let mut scene = one(Shape::Sphere { centre: Point::origin(), radius_m: 0.1 });
+    let mut scene = one(Shape::sphere(Point::origin(), 0.1));
     scene.bed = Some(BedShape { pose: Pose::translation(0.0, 0.0, -0.2), size_m: [1.0, 0.5] });
     scene.strands.push(strand(vec![Point::new(-1.0, 0.0, 0.3), Point::new(1.0, 0.0, 0.3)], 0.001));
     let caster = Caster::new(&scene);
@@ -130,8 +130,8 @@ fn useless_shapes_are_left_out() {
         Shape::Hull { points: (0..6).map(|i| Point::new(f64::from(i), 0.0, 0.0)).collect() },
         Shape::Mesh { vertices: vec![o], triangles: vec![[0, 1, 2], [0, 0, 0]] },
         Shape::Capsule { a: nan, b: o, radius_m: 1.0 },
-        Shape::Cylinder { a: o, b: o, radius_m: 1.0 },
-        Shape::Sphere { centre: o, radius_m: f64::INFINITY },
+        Shape::cylinder(o, o, 1.0),
+        Shape::sphere(o, f64::INFINITY),
     ] {
         assert_eq!(Caster::new(&one(shape)).cast(Point::new(0.0, 0.0, 9.0), -Vector::z()), None);
     }

@@ -71,7 +71,8 @@ pub(super) struct Forms {
 impl Forms {
     pub(super) fn new(forms: &[Form], up: Vector) -> Self {
         let mesh = |form: &Form| {
-            TriMesh::new(form.vertices.iter().map(parry::point).collect(), form.triangles.clone()).ok()
+            TriMesh::new(form.vertices.iter().map(parry::point).collect(), form.triangles.clone())
+                .ok()
         };
         Self { meshes: forms.iter().map(mesh).collect(), up }
     }

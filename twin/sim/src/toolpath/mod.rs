@@ -54,7 +54,9 @@ pub fn paths(job: &Job) -> Vec<Path> {
     job.strands
         .iter()
         .enumerate()
-        .map(|(index, strand)| path(index, strand, &direction::Surroundings { up, bed_x, forms: &forms }))
+        .map(|(index, strand)| {
+            path(index, strand, &direction::Surroundings { up, bed_x, forms: &forms })
+        })
         .collect()
 }
 
@@ -63,14 +65,15 @@ fn path(index: usize, strand: &Strand, around: &direction::Surroundings<'_>) -> 
     let length_m = stations.last().copied().unwrap_or(0.0);
     let nozzle = vertex_directions(strand, around);
     let mut samples = Vec::new();
-    let places = sample_places(&strand.points, &stations, strand.joints.is_some());
+    let places = sample_places(strand, &stations);
     let mut segment = 0;
     for at_m in places {
         while segment + 2 < stations.len() && at_m > stations[segment + 1] {
             segment += 1;
         }
         let (a, b) = (strand.points[segment], strand.points[segment + 1]);
-        let share = ((at_m - stations[segment]) / (stations[segment + 1] - stations[segment])).clamp(0.0, 1.0);
+        let share = ((at_m - stations[segment]) / (stations[segment + 1] - stations[segment]))
+            .clamp(0.0, 1.0);
         let (speed_m_s, flow_m3_s) = speed_and_flow(strand, at_m);
         samples.push(Sample {
             at_m,
@@ -96,32 +99,42 @@ pub fn stations(points: &[Point]) -> Vec<f64> {
     stations
 }
 
-/// Arc lengths of the samples: ends, corners, evenly in between; every vertex if joints are given.
-fn sample_places(points: &[Point], stations: &[f64], every_vertex: bool) -> Vec<f64> {
+/// Arc lengths of the samples: ends, corners, changes of the profile, evenly in between. A joint
+/// path of the strand's own has a row per vertex, so there the vertices are the samples.
+fn sample_places(strand: &Strand, stations: &[f64]) -> Vec<f64> {
+    if strand.joints.is_some() {
+        return stations.to_vec();
+    }
+    let points = &strand.points;
     let is_corner = |k: usize| {
         let (before, after) = (points[k] - points[k - 1], points[k + 1] - points[k]);
-        every_vertex || before.angle(&after) > CORNER_RAD
+        before.angle(&after) > CORNER_RAD
     };
-    let inner = (1..points.len().saturating_sub(1)).filter(|&k| is_corner(k)).map(|k| stations[k]);
-    let marks: Vec<f64> =
-        std::iter::once(0.0).chain(inner).chain(stations.last().copied()).collect();
+    let length_m = stations.last().copied().unwrap_or(0.0);
+    let corners = (1..points.len().saturating_sub(1)).filter(|&k| is_corner(k));
+    let changes = strand.profile.iter().map(|point| point.at_m);
+    let mut marks: Vec<f64> = corners.map(|k| stations[k]).chain(changes).collect();
+    marks.retain(|&at_m| at_m > 0.0 && at_m < length_m);
+    marks.extend([0.0, length_m]);
+    marks.sort_by(f64::total_cmp);
     let mut places = vec![0.0];
-    for pair in marks.windows(2) {
+    for pair in thin_out(marks).windows(2) {
         let n_steps = ((pair[1] - pair[0]) / STEP_M).ceil().max(1.0) as usize;
-        let n_steps = if every_vertex { 1 } else { n_steps };
-        places.extend((1..=n_steps).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / n_steps as f64));
+        let step_m = (pair[1] - pair[0]) / n_steps as f64;
+        places.extend((1..n_steps).map(|k| pair[0] + step_m * k as f64));
+        places.push(pair[1]);
     }
-    thin_out(places)
+    places
 }
 
-/// Drops samples nearer than a quarter step to the one before, keeping both ends: a finely drawn
+/// Drops marks nearer than a quarter step to the one before, keeping both ends: a finely drawn
 /// curve has a corner at every vertex and needs no sample at each.
-fn thin_out(places: Vec<f64>) -> Vec<f64> {
-    let n_places = places.len();
-    let mut kept: Vec<f64> = Vec::with_capacity(n_places);
-    for (k, at_m) in places.into_iter().enumerate() {
+fn thin_out(marks: Vec<f64>) -> Vec<f64> {
+    let n_marks = marks.len();
+    let mut kept: Vec<f64> = Vec::with_capacity(n_marks);
+    for (k, at_m) in marks.into_iter().enumerate() {
         let far = kept.last().is_none_or(|last| at_m - last >= STEP_M / 4.0);
-        if far || k + 1 == n_places {
+        if far || k + 1 == n_marks {
             kept.push(at_m);
         }
     }
@@ -140,7 +153,9 @@ fn speed_and_flow(strand: &Strand, at_m: f64) -> (f64, f64) {
 
 /// Nozzle axis at each vertex; at an inner vertex the tangent is the mean of both sides.
 fn vertex_directions(strand: &Strand, around: &direction::Surroundings<'_>) -> Vec<Vector> {
-    if let (Follow::Given, Some(directions)) = (strand.settings.orientation.follow, &strand.directions) {
+    if let (Follow::Given, Some(directions)) =
+        (strand.settings.orientation.follow, &strand.directions)
+    {
         return directions.clone();
     }
     let points = &strand.points;

@@ -20,7 +20,7 @@ pub(crate) fn parse_checked<T: DeserializeOwned>(
 ) -> Result<T, Vec<Diagnostic>> {
     let (document, faults) = DeTable::parse_recoverable(&source.text);
     if !faults.is_empty() {
-        return Err(faults.iter().map(reading::syntax_fault).collect());
+        return Err(in_order(faults.iter().map(reading::syntax_fault).collect()));
     }
     let mut checks = Checks::default();
     let whole = Spanned::new(document.span(), DeValue::Table(document.get_ref().clone()));
@@ -38,8 +38,11 @@ pub(crate) fn parse_checked<T: DeserializeOwned>(
 fn in_order(mut problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     problems.sort_by_key(|problem| problem.span);
     problems.dedup();
-    problems
+    problems.into_iter().map(|problem| problem.or_hint(SEE_LIBRARY)).collect()
 }
+
+/// What to do about a problem that says no better.
+const SEE_LIBRARY: &str = "compare with a file of the library; `twin doctor` lists them";
 
 /// What one number may be.
 #[derive(Clone, Copy, PartialEq)]

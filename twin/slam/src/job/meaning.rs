@@ -47,13 +47,14 @@ impl<'a> Ids<'a> {
         for (id, is_form) in forms.chain(strands) {
             let name = id.value.as_str();
             if RESERVED.contains(&name) {
-                problems.error(
-                    id.span,
-                    format!("{} has a meaning of its own and cannot be an id", quoted(name)),
-                );
+                let message =
+                    format!("{} has a meaning of its own and cannot be an id", quoted(name));
+                problems.add(Diagnostic::error(id.span, message).hint("choose another"));
             }
             if !name.is_empty() && ids.contains(name) {
-                problems.error(id.span, format!("the id {} is already taken", quoted(name)));
+                let message = format!("the id {} is already taken", quoted(name));
+                let hint = "every form and every strand needs an id of its own";
+                problems.add(Diagnostic::error(id.span, message).hint(hint));
             }
             if is_form {
                 ids.forms.insert(name)
@@ -78,7 +79,7 @@ fn unknown<'a>(
     let problem = Diagnostic::error(span, format!("there is no {what} {}", quoted(name)));
     match nearest(name, known) {
         Some(near) => problem.hint(format!("did you mean {}?", quoted(near))),
-        None => problem,
+        None => problem.hint(format!("give the id of a {what} of this job")),
     }
 }
 
@@ -169,7 +170,7 @@ fn points(strand: &Strand, problems: &mut Problems) {
     for (index, pair) in strand.points_mm.windows(2).enumerate() {
         if distance_mm(pair) < SAME_POINT_MM {
             let message = format!("points_mm[{}] coincides with the point before it", index + 1);
-            problems.error(pair[1].span, message);
+            problems.add(Diagnostic::error(pair[1].span, message).hint("leave one of them out"));
         }
     }
 }
@@ -184,7 +185,8 @@ fn beside_points(strand: &Strand, problems: &mut Problems) {
     let count = strand.points_mm.len();
     let mut same_length = |name: &str, length: usize, span: Span| {
         if count >= 2 && length != count {
-            problems.error(span, format!("{name} has {length} entries for {count} points"));
+            let message = format!("{name} has {length} entries for {count} points");
+            problems.add(Diagnostic::error(span, message).hint("give one entry per point"));
         }
     };
     if let Some(directions) = &strand.directions {
@@ -199,7 +201,9 @@ fn beside_points(strand: &Strand, problems: &mut Problems) {
     }
     for (index, direction) in strand.directions.iter().flatten().enumerate() {
         if direction.value.iter().map(|part| part * part).sum::<f64>().sqrt() < ZERO_LENGTH {
-            problems.error(direction.span, format!("directions[{index}] has no length"));
+            let message = format!("directions[{index}] has no length");
+            let hint = "a direction points out of the nozzle, as [0, 0, -1] does";
+            problems.add(Diagnostic::error(direction.span, message).hint(hint));
         }
     }
     if let Some(joints) = &strand.joints {
@@ -220,7 +224,7 @@ fn times(strand: &Strand, problems: &mut Problems) {
     if let Some(index) = times.value.windows(2).position(|pair| pair[1] <= pair[0]) {
         let (before, after) = (times.value[index], times.value[index + 1]);
         let message = format!("times_s[{}] = {after} is not after {before}", index + 1);
-        problems.error(times.span, message);
+        problems.add(Diagnostic::error(times.span, message).hint("times must rise"));
     }
 }
 

@@ -94,7 +94,8 @@ fn scan(text: &str) -> Fallible<()> {
             return fail(here, format!("nested deeper than {MAX_DEPTH} levels"));
         }
         if commas > MAX_COMMAS {
-            return fail(here, format!("more than {MAX_COMMAS} values"));
+            let problem = Diagnostic::error(here, format!("more than {MAX_COMMAS} values"));
+            return Err(Box::new(problem.hint("split the job in two")));
         }
         at += 1;
     }

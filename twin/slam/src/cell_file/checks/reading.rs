@@ -62,7 +62,10 @@ fn reading_fault(error: &Error, names: &[String]) -> Diagnostic {
         .into_iter()
         .find(|(serde, _)| message.starts_with(serde));
     let (Some((_, ours)), Some((name, known))) = (kind, names.split_first()) else {
-        return Diagnostic::error(span_of(error), message.replace('\n', ", "));
+        return Diagnostic::error(
+            span_of(error),
+            message.replace('\n', ", ").replace("expected f64", "expected a number"),
+        );
     };
     let problem = Diagnostic::error(span_of(error), format!("{ours} `{name}`"));
     match nearest(name, known) {

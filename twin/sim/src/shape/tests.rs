@@ -1,0 +1,82 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn cone() -> Shape {
+    Shape::Cone {
+        from: Point::new(0.01, 0.02, 0.1),
+        to: Point::new(0.03, -0.01, 0.0),
+        radius_from_m: 0.013,
+        radius_to_m: 0.0024,
+    }
+}
+
+/// Distance of a point from a shape by parry, m; zero inside.
+fn distance_m(shape: &Shape, point: &Point) -> f64 {
+    parry::from_length(shape.to_parry().distance_to_local_point(parry::point(point), true))
+}
+
+/// The polygon is drawn around the circle: nothing of the cone lies outside, and it is at most
+/// `1/cos(π/16) − 1`, two per cent, too wide.
+#[test]
+fn a_cone_lies_inside_its_corners() {
+    let shape = cone();
+    let Shape::Cone { from, to, radius_from_m, radius_to_m } = &shape else { unreachable!() };
+    let axes = pose::from_z_axis(*from, to - from, Vector::x());
+    let length_m = (to - from).norm();
+    for k in 0..360 {
+        let angle = f64::from(k).to_radians();
+        let (sin, cos) = angle.sin_cos();
+        for share in [0.0, 0.3, 1.0] {
+            let at = |r: f64| axes * Point::new(r * cos, r * sin, share * length_m);
+            let r = radius_from_m + (radius_to_m - radius_from_m) * share;
+            assert!(distance_m(&shape, &at(r)) < 1e-7, "{k}° {share}");
+            assert!(distance_m(&shape, &at(1.03 * r)) > 1e-6, "{k}° {share}");
+        }
+    }
+    assert_eq!(shape.corners().len(), 32);
+    assert_eq!(shape.skin_m(), 0.0);
+}
+
+#[test]
+fn boxes_and_capsules_keep_their_size() {
+    let turned = pose::from_xyz_rpy([0.1, -0.2, 0.3], [0.4, 0.5, 0.6]);
+    let block = Shape::Box { pose: turned, half_m: Vector::new(0.1, 0.02, 0.03) };
+    let outside = turned * Point::new(0.1 + 0.01, 0.0, 0.0);
+    assert!((distance_m(&block, &outside) - 0.01).abs() < 1e-6);
+    assert!(distance_m(&block, &(turned * Point::new(0.099, 0.019, -0.029))) == 0.0);
+    let rod = Shape::Capsule { a: Point::origin(), b: Point::new(0.1, 0.0, 0.0), radius_m: 0.02 };
+    assert!((distance_m(&rod, &Point::new(0.15, 0.0, 0.0)) - 0.03).abs() < 1e-7);
+    assert_eq!((rod.skin_m(), rod.corners().len()), (0.02, 2));
+    let ball = Shape::sphere(Point::new(0.0, 0.0, 1.0), 0.5);
+    assert!((distance_m(&ball, &Point::origin()) - 0.5).abs() < 1e-6);
+}
+
+/// A flat hull or a mesh of nothing becomes a ball around it, never nothing and never a panic.
+#[test]
+fn shapes_without_volume_become_larger_not_smaller() {
+    let flat = vec![Point::origin(), Point::new(0.1, 0.0, 0.0), Point::new(0.05, 0.0, 0.0)];
+    let shapes = [
+        Shape::Hull { points: flat.clone() },
+        Shape::Hull { points: vec![Point::new(1.0, 2.0, 3.0)] },
+        Shape::Hull { points: Vec::new() },
+        Shape::Mesh { vertices: Vec::new(), triangles: Vec::new() },
+    ];
+    for shape in &shapes {
+        for corner in shape.corners() {
+            assert!(distance_m(shape, &corner) < 1e-6, "{shape:?}");
+        }
+    }
+    assert_eq!(distance_m(&shapes[0], &Point::new(0.03, 0.0, 0.0)), 0.0);
+}
+
+proptest! {
+    /// Every corner of a hull is in the solid that parry gets.
+    #[test]
+    fn hulls_hold_their_corners(points in prop::collection::vec([-0.3..0.3f64, -0.3..0.3, -0.3..0.3], 4..20)) {
+        let hull = Shape::Hull { points: points.into_iter().map(Point::from).collect() };
+        for corner in hull.corners() {
+            prop_assert!(distance_m(&hull, &corner) < 1e-6);
+        }
+    }
+}
