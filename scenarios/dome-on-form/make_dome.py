@@ -8,13 +8,13 @@ import struct
 import sys
 from math import acos, asin, ceil, cos, pi, sin
 
-WIDTH_MM, RISE_MM = 120.0, 26.0
+WIDTH_MM, RISE_MM = 120.0, 18.0
 RADIUS_MM = (WIDTH_MM**2 / 4 + RISE_MM**2) / (2 * RISE_MM)  # of the sphere
 RIM_RAD = asin(WIDTH_MM / 2 / RADIUS_MM)  # from the pole to the rim
 RINGS, SECTORS = 15, 60
 LAYERS_MM = {"along": 0.6, "across": 1.7}  # of the axes over the form: the second layer lies on the first
 FOOT_MM = 1.0  # of the ends over the bed: lower, and the slanted face of the nozzle digs into it
-PLANES_MM = [-36.0, -12.0, 12.0, 36.0]  # in which the strands of a layer run
+PLANES_MM = [-46.0, -22.0, 22.0, 46.0]  # in which the strands of a layer run
 STEP_MM = 4.0
 
 HEAD = """// A dome of strands, laid on a mould in two layers and released from it. Written by make_dome.py.
@@ -23,7 +23,7 @@ HEAD = """// A dome of strands, laid on a mould in two layers and released from 
   "name": "dome-on-form",
   "cell": "kr6-hot-end",
   "material": "pla",
-  "placement": { "xyz_mm": [PX, PY, 0], "rpy_deg": [0, 0, 0] },
+  "placement": { "xyz_mm": [30, -60, 0], "rpy_deg": [0, 0, 0] },
   "environment": { "air_c": 23, "air_m_s": 0.1 },
   "forms": [{ "id": "mould", "mesh": "mould.stl", "adhesion_mpa": 0.3 }],
   "process": {
@@ -31,8 +31,8 @@ HEAD = """// A dome of strands, laid on a mould in two layers and released from 
     "flow": { "diameter_mm": 1.25 },
     "prime_s": 0.5,
     "dwell_s": 1.0,
-    "approach_mm": 20,
-    "retract_mm": 20,
+    "approach_mm": 50,
+    "retract_mm": 50,
     "orientation": { "follow": "surface_normal", "spin": "free" },
   },
   "strands": ["""
@@ -101,6 +101,8 @@ def main():
     for layer, over in LAYERS_MM.items():
         for k, plane in enumerate(PLANES_MM):
             points = [(s, plane, z) if layer == "along" else (plane, s, z) for s, z in arch(plane, over)]
+            if k % 2:
+                points.reverse()  # back and forth, so that the way to the next one is short
             text = ", ".join(f"[{x:.3f}, {y:.3f}, {z:.3f}]" for x, y, z in points)
             name = f"{layer}-{k + 1}"
             lines.append(f'    {{ "id": "{name}", "on": "mould", "points_mm": [{text}], "start": {{ "join": "bed" }}, "end": {{ "join": "bed" }} }},')

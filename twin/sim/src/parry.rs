@@ -26,6 +26,14 @@ pub fn from_length(length: f32) -> f64 {
     f64::from(length) / PER_M
 }
 
+/// The search of parry3d stops when it is within this share of a distance, √(10 ε) of f32.
+pub const SLACK: f64 = 1.1e-3;
+
+/// The least that a distance from parry3d may stand for, m, but for [`ROUNDING_M`].
+pub fn at_least(distance: f32) -> f64 {
+    from_length(distance) * (1.0 - SLACK)
+}
+
 /// A point for parry3d.
 pub fn point(point: &Point) -> ParryVector {
     vector(&point.coords)

@@ -1,16 +1,21 @@
 //! The rigid bodies of a cell with their parry3d shapes and bounding spheres.
 
-use parry3d::query;
+use parry3d::query::{self, ClosestPoints};
 use parry3d::shape::{Segment, SharedShape};
 
+use super::exact::{self, Triangle};
 use crate::cell::Job;
 use crate::parry;
-use crate::pose::{Point, Pose};
+use crate::pose::{Point, Pose, Vector};
 use crate::shape::Shape;
 
 /// A convex shape (or mesh) in the axes of its body.
 pub(super) struct Solid {
     shape: SharedShape,
+    /// Its surface without the skin; empty for a mesh, which is not convex.
+    triangles: Vec<Triangle>,
+    /// Radius around that surface.
+    skin_m: f64,
     /// Bounding sphere in body axes.
     centre: Point,
     radius_m: f64,
@@ -128,15 +133,13 @@ impl Body {
     ) -> f64 {
         let reach_m = horizon_m + bead_m;
         let mut least = f64::INFINITY;
-        let segment = Segment::new(parry::point(&piece[0]), parry::point(&piece[1]));
-        let identity = parry3d::math::Pose::IDENTITY;
+        let bead = Solid::line(piece);
         for solid in &self.solids {
             if to_piece(&(pose * solid.centre), piece) > reach_m + solid.radius_m {
                 continue;
             }
-            let distance = query::distance(&parry::pose(pose), &*solid.shape, &identity, &segment);
-            least = least
-                .min(distance.map_or(f64::INFINITY, |d| parry::from_length(d.distance)) - bead_m);
+            let distance_m = solid.distance_m(pose, &bead, &Pose::identity());
+            least = least.min(distance_m.unwrap_or(f64::INFINITY) - bead_m);
         }
         least - parry::ROUNDING_M
     }
@@ -179,9 +182,8 @@ impl Body {
             if bound_m >= least {
                 break;
             }
-            let distance = query::distance(&at, &*solid.shape, &other_at, &*second.shape);
-            let mut clearance_m =
-                distance.map_or(bound_m, |distance| parry::from_length(distance.distance));
+            let distance_m = solid.distance_m(pose, second, other_pose);
+            let mut clearance_m = distance_m.unwrap_or(bound_m);
             if clearance_m <= 0.0
                 && let Ok(Some(contact)) =
                     query::contact(&at, &*solid.shape, &other_at, &*second.shape, 0.0)
@@ -203,7 +205,63 @@ impl Body {
 impl Solid {
     fn new(shape: &Shape) -> Self {
         let (centre, radius_m) = sphere(&shape.corners());
-        Self { shape: shape.to_parry(), centre, radius_m: radius_m + shape.skin_m() }
+        let (solid, skin_m) = (shape.to_parry(), shape.skin_m());
+        let triangles = match (shape, solid.as_convex_polyhedron()) {
+            (Shape::Capsule { a, b, .. }, _) => vec![[*a, *b, *b]],
+            (_, Some(hull)) => {
+                let (vertices, triangles) = hull.to_trimesh();
+                let corner = |index: u32| parry::from_point(vertices[index as usize]);
+                triangles.into_iter().map(|triangle| triangle.map(corner)).collect()
+            }
+            _ => Vec::new(),
+        };
+        Self { shape: solid, triangles, skin_m, centre, radius_m: radius_m + skin_m }
+    }
+
+    fn line(ends: &[Point; 2]) -> Self {
+        let [a, b] = *ends;
+        let shape = SharedShape::new(Segment::new(parry::point(&a), parry::point(&b)));
+        let (centre, radius_m) = sphere(ends);
+        Self { shape, triangles: vec![[a, b, b]], skin_m: 0.0, centre, radius_m }
+    }
+
+    /// Distance of two solids, never too long; zero where they overlap, `None` where parry3d
+    /// cannot say. Its answer counts if the plane across it parts the two as far as it says.
+    fn distance_m(&self, pose: &Pose, other: &Self, other_pose: &Pose) -> Option<f64> {
+        let (at, other_at) = (parry::pose(pose), parry::pose(other_pose));
+        let found =
+            query::closest_points(&at, &*self.shape, &other_at, &*other.shape, f32::MAX).ok()?;
+        let (from, to) = match found {
+            ClosestPoints::Intersecting => return Some(0.0),
+            ClosestPoints::Disjoint => return None,
+            ClosestPoints::WithinMargin(from, to) => (from, to),
+        };
+        let distance_m = parry::at_least((to - from).length());
+        if self.triangles.is_empty() || other.triangles.is_empty() {
+            return Some(distance_m);
+        }
+        let direction = (parry::from_point(to) - parry::from_point(from)).try_normalize(1e-9);
+        let parted_m = direction.map_or(0.0, |direction| {
+            -self.furthest(pose, &direction) - other.furthest(other_pose, &-direction)
+        });
+        if parted_m + parry::ROUNDING_M >= distance_m {
+            return Some(distance_m);
+        }
+        let apart_m = exact::distance(&self.placed(pose), &other.placed(other_pose));
+        Some((apart_m - self.skin_m - other.skin_m).max(0.0))
+    }
+
+    /// How far the solid reaches along a unit direction, m.
+    fn furthest(&self, pose: &Pose, direction: &Vector) -> f64 {
+        let local = pose.inverse_transform_vector(direction);
+        let corners = self.triangles.as_flattened().iter();
+        let reach_m =
+            corners.map(|corner| corner.coords.dot(&local)).fold(f64::NEG_INFINITY, f64::max);
+        reach_m + pose.translation.vector.dot(direction) + self.skin_m
+    }
+
+    fn placed(&self, pose: &Pose) -> Vec<Triangle> {
+        self.triangles.iter().map(|triangle| triangle.map(|corner| pose * corner)).collect()
     }
 }
 

@@ -14,6 +14,7 @@
 //! the cell: the nozzle within that distance of a place where its strand touches the other one.
 
 mod bodies;
+mod exact;
 mod fixtures;
 mod strands;
 #[cfg(test)]
@@ -229,8 +230,10 @@ impl<'a> Look<'a> {
         // the full clearance, so that both kinds have a margin on one scale.
         let full_m = self.job.limits.clearance_m;
         let value_m = clearance_m + (full_m - limit_m);
-        // A check carries a lower limit, so the uncertainty that matters is that of the arm.
-        let accuracy_m = self.job.cell.robot.accuracy_m;
+        // The arm's error moves the strand in progress with the nozzle, and is what those that may
+        // touch may press into each other for.
+        let moves_together = code == Code::C204 || limit_m < 0.0;
+        let accuracy_m = if moves_together { 0.0 } else { self.job.cell.robot.accuracy_m };
         let measured = Interval::new(value_m, value_m - accuracy_m, value_m + accuracy_m);
         let job = self.job;
         let phase = self.leg.phase.word();
@@ -253,7 +256,7 @@ mod words {
     //! Sentences of clearance findings.
 
     use crate::cell::Job;
-    use crate::finding::{Code, Words};
+    use crate::finding::{Code, Phase, Words};
 
     pub(super) fn clearance(
         job: &Job,
@@ -273,6 +276,10 @@ mod words {
         };
         let missing_mm = (limit_m - clearance_m) * 1e3;
         let hint = match code {
+            _ if phase == Phase::Transit.word() => {
+                "lead the arm round it with a `move` step before the strand, or lengthen approach and retract"
+                    .to_owned()
+            }
             Code::C201 | Code::C202 => format!(
                 "print `{other}` after this strand, tilt the nozzle away, or move one of them by {missing_mm:.1} mm"
             ),

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::bodies::Bodies;
 use super::*;
 use crate::deposit::Printed;
-use crate::parry::ROUNDING_M;
+use crate::parry::{ROUNDING_M, SLACK};
 use crate::pose::{self, Vector};
 use crate::test_job::{job, strand, text};
 use crate::{motion, toolpath};
@@ -45,11 +45,10 @@ fn clearance_of_a_cone_to_a_bead_is_that_by_hand() {
                 let piece = [place * (middle - along), place * (middle + along)];
                 let found_m = nozzle.to_bead(&place, &piece, bead_mm / 1e3, 0.05);
                 let wanted_m = by_hand_m(r_mm, h_mm, bead_mm);
-                // the stated rounding is taken off, so it is never more than by hand
-                assert!(
-                    found_m <= wanted_m && found_m >= wanted_m - 2.0 * ROUNDING_M,
-                    "{found_m} for {wanted_m}"
-                );
+                // the stated roundings are taken off, so it is never more than by hand
+                let lost_m = 2.0 * ROUNDING_M + SLACK * (wanted_m + bead_mm / 1e3);
+                let holds = found_m <= wanted_m && found_m >= wanted_m - lost_m;
+                assert!(holds, "{found_m} for {wanted_m}");
             }
         }
     });
@@ -188,6 +187,8 @@ fn from_cone_m(place: &Point) -> Option<f64> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
     /// Beads of any length and direction: never further than from the round cone, and nearer by no
     /// more than the polygon stands out (two per cent of the radius).
     #[test]
@@ -207,7 +208,8 @@ proptest! {
         with_nozzle(|nozzle| {
             let found_m = nozzle.to_bead(&Pose::identity(), &piece, 0.0, 1.0);
             assert!(found_m <= searched_m + 1e-7, "{found_m} m for {searched_m} m");
-            assert!(found_m >= searched_m - 0.26e-3 - 3.0 * ROUNDING_M, "{found_m} m for {searched_m} m");
+            let lost_m = 0.26e-3 + 3.0 * ROUNDING_M + SLACK * searched_m;
+            assert!(found_m >= searched_m - lost_m, "{found_m} m for {searched_m} m");
         });
     }
 

@@ -304,9 +304,12 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
     }
 }
 
-/// The speed at which the sag behind the nozzle would be at its limit: it grows as v⁴.
+/// The speed at which the sag behind the nozzle (its high end, if only that is past the limit)
+/// would be at its limit: it grows as v⁴.
 fn slower(job: &Job, limit_m: f64, outcome: &StrandOutcome) -> String {
-    let ratio = (limit_m / outcome.sag_nozzle_m.nominal).powf(0.25);
+    let Interval { nominal, high, .. } = outcome.sag_nozzle_m;
+    let past_m = if nominal > limit_m { nominal } else { high };
+    let ratio = (limit_m / past_m).powf(0.25);
     let jet = if job.cell.tool.air_jet.is_some() { "more air" } else { "an air jet" };
     format!(
         "print at {:.0} % of this speed or slower (sag goes with its fourth power), or with {jet}",

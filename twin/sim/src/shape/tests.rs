@@ -11,9 +11,18 @@ fn cone() -> Shape {
     }
 }
 
-/// Distance of a point from a shape by parry, m; zero inside.
-fn distance_m(shape: &Shape, point: &Point) -> f64 {
-    parry::from_length(shape.to_parry().distance_to_local_point(parry::point(point), true))
+/// How far a point is outside a shape at least, m; negative inside. Of a polyhedron: outside the
+/// plane of the face that it is furthest from.
+fn outside_m(shape: &Shape, point: &Point) -> f64 {
+    let (solid, point) = (shape.to_parry(), parry::point(point));
+    let Some(hull) = solid.as_convex_polyhedron() else {
+        return parry::from_length(solid.distance_to_local_point(point, true));
+    };
+    let gaps = hull.faces().iter().map(|face| {
+        let vertex = hull.vertices_adj_to_face()[face.first_vertex_or_edge as usize];
+        face.normal.dot(point - hull.points()[vertex as usize])
+    });
+    parry::from_length(gaps.fold(f32::NEG_INFINITY, f32::max))
 }
 
 /// The polygon is drawn around the circle: nothing of the cone lies outside, and it is at most
@@ -30,8 +39,8 @@ fn a_cone_lies_inside_its_corners() {
         for share in [0.0, 0.3, 1.0] {
             let at = |r: f64| axes * Point::new(r * cos, r * sin, share * length_m);
             let r = radius_from_m + (radius_to_m - radius_from_m) * share;
-            assert!(distance_m(&shape, &at(r)) < 1e-7, "{k}° {share}");
-            assert!(distance_m(&shape, &at(1.03 * r)) > 1e-6, "{k}° {share}");
+            assert!(outside_m(&shape, &at(r)) < 1e-7, "{k}° {share}");
+            assert!(outside_m(&shape, &at(1.03 * r)) > 0.0, "{k}° {share}");
         }
     }
     assert_eq!(shape.corners().len(), 32);
@@ -43,13 +52,13 @@ fn boxes_and_capsules_keep_their_size() {
     let turned = pose::from_xyz_rpy([0.1, -0.2, 0.3], [0.4, 0.5, 0.6]);
     let block = Shape::Box { pose: turned, half_m: Vector::new(0.1, 0.02, 0.03) };
     let outside = turned * Point::new(0.1 + 0.01, 0.0, 0.0);
-    assert!((distance_m(&block, &outside) - 0.01).abs() < 1e-6);
-    assert!(distance_m(&block, &(turned * Point::new(0.099, 0.019, -0.029))) == 0.0);
+    assert!((outside_m(&block, &outside) - 0.01).abs() < 1e-6);
+    assert!(outside_m(&block, &(turned * Point::new(0.099, 0.019, -0.029))) < 0.0);
     let rod = Shape::Capsule { a: Point::origin(), b: Point::new(0.1, 0.0, 0.0), radius_m: 0.02 };
-    assert!((distance_m(&rod, &Point::new(0.15, 0.0, 0.0)) - 0.03).abs() < 1e-7);
+    assert!((outside_m(&rod, &Point::new(0.15, 0.0, 0.0)) - 0.03).abs() < 1e-7);
     assert_eq!((rod.skin_m(), rod.corners().len()), (0.02, 2));
     let ball = Shape::sphere(Point::new(0.0, 0.0, 1.0), 0.5);
-    assert!((distance_m(&ball, &Point::origin()) - 0.5).abs() < 1e-6);
+    assert!((outside_m(&ball, &Point::origin()) - 0.5).abs() < 1e-6);
 }
 
 /// A flat hull or a mesh of nothing becomes a ball around it, never nothing and never a panic.
@@ -64,10 +73,10 @@ fn shapes_without_volume_become_larger_not_smaller() {
     ];
     for shape in &shapes {
         for corner in shape.corners() {
-            assert!(distance_m(shape, &corner) < 1e-6, "{shape:?}");
+            assert!(outside_m(shape, &corner) < 1e-6, "{shape:?}");
         }
     }
-    assert_eq!(distance_m(&shapes[0], &Point::new(0.03, 0.0, 0.0)), 0.0);
+    assert_eq!(outside_m(&shapes[0], &Point::new(0.03, 0.0, 0.0)), 0.0);
 }
 
 proptest! {
@@ -76,7 +85,7 @@ proptest! {
     fn hulls_hold_their_corners(points in prop::collection::vec([-0.3..0.3f64, -0.3..0.3, -0.3..0.3], 4..20)) {
         let hull = Shape::Hull { points: points.into_iter().map(Point::from).collect() };
         for corner in hull.corners() {
-            prop_assert!(distance_m(&hull, &corner) < 1e-6);
+            prop_assert!(outside_m(&hull, &corner) < 1e-6);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Where the nozzle points along a strand.
 
 use parry3d::query::PointQuery;
-use parry3d::shape::{FeatureId, TriMesh};
+use parry3d::shape::TriMesh;
 
 use crate::cell::{Follow, Form, On, Orientation, Strand, Tilt};
 use crate::parry;
@@ -80,9 +80,8 @@ impl Forms {
     /// Normal of the facet nearest to `point`, turned to the upper side; up where there is none.
     fn normal(&self, form: usize, point: Point) -> Vector {
         let Some(mesh) = self.meshes.get(form).and_then(Option::as_ref) else { return self.up };
-        let (_, location) = mesh.project_local_point_and_get_feature(parry::point(&point));
-        let FeatureId::Face(face) = location else { return self.up };
-        let triangle = mesh.triangle(face % mesh.num_triangles() as u32);
+        let facet = mesh.project_local_point(parry::point(&point), false).subshape;
+        let triangle = mesh.triangle(facet);
         let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(parry::from_point);
         let normal = (b - a).cross(&(c - a));
         if normal.norm() < 1e-15 {
