@@ -9,7 +9,6 @@ use super::options;
 use crate::{Input, Options, wireframe};
 
 /// The shared folder, or `None` with the reason printed.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
 fn shared() -> Option<PathBuf> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared").into();
     let folder =

@@ -6,88 +6,43 @@ use crate::cell::{Join, Mode, On};
 use crate::finding::{Code, Phase};
 use crate::pose::{Point, Pose};
 
+/// A body and its pose in world axes.
+type Placed<'a> = (&'a Body, Pose);
+
 impl<'a> Look<'a> {
     /// Tool parts against bed, forms and fixtures.
     pub(super) fn tool_and_fixtures(&mut self, now: &Now) {
-        let bodies = self.bodies;
-        let world_from_part = now.part_from_world.inverse();
-        for tool in &bodies.tool {
-            let body = &tool.body;
-            let on_bed = tool.nozzle && self.may_touch_bed(now);
-            let on_form = tool.nozzle && self.may_touch_form(now);
-            self.pair(
-                Code::C205,
-                body,
-                &now.world_from_tool,
-                &bodies.bed,
-                &now.world_from_bed,
-                on_bed,
-                now,
-            );
-            for form in &bodies.forms {
-                self.pair(
-                    Code::C205,
-                    body,
-                    &now.world_from_tool,
-                    form,
-                    &world_from_part,
-                    on_form,
-                    now,
-                );
+        let (on_bed, on_form) = (self.may_touch_bed(now), self.may_touch_form(now));
+        let tool_moves = self.job.cell.mode == Mode::ToolOnFlange;
+        for tool in &self.bodies.tool {
+            let part = (&tool.body, now.world_from_tool);
+            self.pair(Code::C205, part, self.bed(now), tool.nozzle && on_bed, now);
+            for form in self.forms(now) {
+                self.pair(Code::C205, part, form, tool.nozzle && on_form, now);
             }
-            if self.job.cell.mode == Mode::ToolOnFlange {
-                for obstacle in &bodies.obstacles {
-                    self.pair(
-                        Code::C205,
-                        body,
-                        &now.world_from_tool,
-                        obstacle,
-                        &Pose::identity(),
-                        false,
-                        now,
-                    );
-                }
+            for obstacle in self.obstacles().filter(|_| tool_moves) {
+                self.pair(Code::C205, part, obstacle, false, now);
             }
         }
     }
 
     /// Arm links, and the bed if it rides on the arm, against what stands still.
     pub(super) fn arm_and_fixtures(&mut self, now: &Now) {
-        let bodies = self.bodies;
-        let world_from_part = now.part_from_world.inverse();
         let bed_rides = self.job.cell.mode == Mode::BedOnFlange;
-        for link in bodies.links.iter().filter(|link| link.carrier.is_some()) {
-            let pose = link_pose(link, now);
+        for link in self.bodies.links.iter().filter(|link| link.carrier.is_some()) {
+            let link = (&link.body, link_pose(link, now));
             if !bed_rides {
-                self.pair(
-                    Code::C205,
-                    &link.body,
-                    &pose,
-                    &bodies.bed,
-                    &now.world_from_bed,
-                    false,
-                    now,
-                );
-                for form in &bodies.forms {
-                    self.pair(Code::C205, &link.body, &pose, form, &world_from_part, false, now);
+                self.pair(Code::C205, link, self.bed(now), false, now);
+                for form in self.forms(now) {
+                    self.pair(Code::C205, link, form, false, now);
                 }
             }
-            for obstacle in &bodies.obstacles {
-                self.pair(Code::C205, &link.body, &pose, obstacle, &Pose::identity(), false, now);
+            for obstacle in self.obstacles() {
+                self.pair(Code::C205, link, obstacle, false, now);
             }
         }
-        if bed_rides {
-            for obstacle in &bodies.obstacles {
-                self.pair(
-                    Code::C205,
-                    &bodies.bed,
-                    &now.world_from_bed,
-                    obstacle,
-                    &Pose::identity(),
-                    false,
-                    now,
-                );
-            }
+        for obstacle in self.obstacles().filter(|_| bed_rides) {
+            self.pair(Code::C205, self.bed(now), obstacle, false, now);
         }
     }
 
@@ -95,75 +50,51 @@ impl<'a> Look<'a> {
     pub(super) fn arm_and_itself(&mut self, now: &Now) {
         let bodies = self.bodies;
         for &[i, j] in &bodies.link_pairs {
-            let (a, b) = (&bodies.links[i], &bodies.links[j]);
-            self.pair(
-                Code::C206,
-                &a.body,
-                &link_pose(a, now),
-                &b.body,
-                &link_pose(b, now),
-                false,
-                now,
-            );
+            let placed = |k: usize| (&bodies.links[k].body, link_pose(&bodies.links[k], now));
+            self.pair(Code::C206, placed(i), placed(j), false, now);
         }
         let bed_rides = self.job.cell.mode == Mode::BedOnFlange;
         for (index, link) in bodies.links.iter().enumerate() {
-            let pose = link_pose(link, now);
-            if bed_rides || bodies.links_off_flange.contains(&index) {
-                for tool in &bodies.tool {
-                    self.pair(
-                        Code::C206,
-                        &tool.body,
-                        &now.world_from_tool,
-                        &link.body,
-                        &pose,
-                        false,
-                        now,
-                    );
-                }
+            let off_flange = bodies.links_off_flange.contains(&index);
+            let link = (&link.body, link_pose(link, now));
+            for tool in bodies.tool.iter().filter(|_| bed_rides || off_flange) {
+                self.pair(Code::C206, (&tool.body, now.world_from_tool), link, false, now);
             }
-            if bed_rides && bodies.links_off_flange.contains(&index) {
-                self.pair(
-                    Code::C206,
-                    &bodies.bed,
-                    &now.world_from_bed,
-                    &link.body,
-                    &pose,
-                    false,
-                    now,
-                );
+            if bed_rides && off_flange {
+                self.pair(Code::C206, self.bed(now), link, false, now);
             }
         }
     }
 
+    fn bed(&self, now: &Now) -> Placed<'a> {
+        (&self.bodies.bed, now.world_from_bed)
+    }
+
+    fn forms(&self, now: &Now) -> impl Iterator<Item = Placed<'a>> + use<'a> {
+        let world_from_part = now.part_from_world.inverse();
+        self.bodies.forms.iter().map(move |form| (form, world_from_part))
+    }
+
+    fn obstacles(&self) -> impl Iterator<Item = Placed<'a>> + use<'a> {
+        self.bodies.obstacles.iter().map(|obstacle| (obstacle, Pose::identity()))
+    }
+
     /// Measures two bodies. Those that may touch may press into each other by half a bead.
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "two bodies, each with its pose, and how they are judged"
-    )]
-    fn pair(
-        &mut self,
-        code: Code,
-        body: &'a Body,
-        pose: &Pose,
-        other: &'a Body,
-        other_pose: &Pose,
-        may_touch: bool,
-        now: &Now,
-    ) {
-        let known = self.apart.get(&(body.name.as_str(), other.name.as_str()));
-        let still_apart = known.is_some_and(|known| {
+    fn pair(&mut self, code: Code, one: Placed<'a>, two: Placed<'a>, may_touch: bool, now: &Now) {
+        let ((body, pose), (other, other_pose)) = (one, two);
+        // Bodies live as long as the look does: their addresses tell them apart, names need not.
+        let key = (std::ptr::from_ref(body) as usize, std::ptr::from_ref(other) as usize);
+        let still_apart = self.apart.get(&key).is_some_and(|known| {
             let moved_m =
-                body.moved(&known.pose, pose) + other.moved(&known.other_pose, other_pose);
+                body.moved(&known.pose, &pose) + other.moved(&known.other_pose, &other_pose);
             known.clearance_m - moved_m > self.horizon_m
         });
         if still_apart {
             return;
         }
-        let clearance_m = body.to_body(pose, other, other_pose, self.horizon_m);
+        let clearance_m = body.to_body(&pose, other, &other_pose, self.horizon_m);
         if clearance_m > self.horizon_m {
-            let apart = Apart { clearance_m, pose: *pose, other_pose: *other_pose };
-            self.apart.insert((&body.name, &other.name), apart);
+            self.apart.insert(key, Apart { clearance_m, pose, other_pose });
             return;
         }
         let limit_m = if may_touch { -self.half_bead_m() } else { self.job.limits.clearance_m };

@@ -113,7 +113,7 @@ struct Look<'a> {
     near: Vec<u32>,
     /// Pairs of bodies last seen further apart than the horizon. As long as their motion since is
     /// less than the rest, they need not be measured.
-    apart: BTreeMap<(&'a str, &'a str), Apart>,
+    apart: BTreeMap<(usize, usize), Apart>,
     findings: Findings,
     nearest: Option<Nearest>,
 }

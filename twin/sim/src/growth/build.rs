@@ -166,17 +166,15 @@ pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandL
     }
 }
 
-/// Whether the author said that the strand's end there is free.
+/// Whether the author said that the later strand's end there is free. Strands that come after
+/// may land on a free end.
 fn is_refused(job: &Job, deposit: &Deposit, contact: &Contact) -> bool {
-    (0..2).any(|side| {
-        let printed = &deposit.strands[contact.orders[side]];
-        let strand = &job.strands[printed.strand];
-        let length_m = printed.at_m.last().copied().unwrap_or(0.0);
-        let near = 2.0 * printed.radius_m;
-        let (start, end) = (strand.start.join, strand.end.join);
-        (start == Some(Join::Free) && contact.at_m[side] < near)
-            || (end == Some(Join::Free) && length_m - contact.at_m[side] < near && side == 0)
-    })
+    let printed = &deposit.strands[contact.orders[0]];
+    let strand = &job.strands[printed.strand];
+    let length_m = printed.at_m.last().copied().unwrap_or(0.0);
+    let near = |end_m: f64| (contact.at_m[0] - end_m).abs() < 2.0 * printed.radius_m;
+    (strand.start.join == Some(Join::Free) && near(0.0))
+        || (strand.end.join == Some(Join::Free) && near(length_m))
 }
 
 struct Builder<'a> {

@@ -118,7 +118,7 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
     }
     let refused = |strand: &crate::cell::Strand| matches!(strand.end.join, Some(Join::Free));
     if job.strands.iter().any(refused) {
-        say("structure", "ends said to be free are not joined, even where they touch.".to_owned());
+        say("structure", "ends said to be free are not joined to what is there, even where they touch; later strands may land on them.".to_owned());
     }
     list
 }
