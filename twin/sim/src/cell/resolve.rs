@@ -19,7 +19,9 @@ use super::job::{
 };
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
+use crate::kinematics::{ChainJoint, JointKind};
 use crate::pose::{self, Point, Pose, Vector};
+use crate::process;
 
 /// All files a job names, already read and parsed by the caller.
 #[derive(Debug)]
@@ -125,11 +127,16 @@ impl Resolver<'_> {
             rows.iter().map(|row| Vector::from(row.value).normalize()).collect::<Vec<_>>()
         });
         let settings = self.settings(strand, directions.is_some());
-        Strand {
+        let resolved = Strand {
             id: strand.id.value.clone(),
             span: strand.span,
             points,
-            joints: strand.joints.as_ref().map(|rows| self.joint_rows(&rows.value, rows.span)),
+            joints: strand.joints.as_ref().map(|given| {
+                let rows = self.joint_rows(&given.value, given.span);
+                // Past the stop of a turning joint is a finding (R102).
+                self.within_stops(&rows, given.span, |joint| joint.kind == JointKind::Prismatic);
+                rows
+            }),
             directions,
             times_s: strand.times_s.as_ref().map(|times| times.value.clone()),
             on: self.on(strand.on.as_ref()),
@@ -138,7 +145,9 @@ impl Resolver<'_> {
             profile: strand.profile.iter().map(profile_point).collect(),
             events: strand.events.iter().map(|event| self.event(event)).collect(),
             settings,
-        }
+        };
+        self.makes_sense(&resolved);
+        resolved
     }
 
     fn settings(&mut self, strand: &doc::Strand, has_directions: bool) -> Settings {
@@ -244,6 +253,61 @@ impl Resolver<'_> {
             .collect()
     }
 
+    /// Refuses rows that put a joint past its stop.
+    fn within_stops(&mut self, rows: &[Vec<f64>], span: Span, judged: fn(&ChainJoint) -> bool) {
+        let joints = machine_from_files::free_joints(&self.cell.robot.arm.chain);
+        let past = |(joint, q): &(&&ChainJoint, &f64)| {
+            judged(joint) && !(joint.lower..=joint.upper).contains(*q)
+        };
+        let found = rows.iter().enumerate().find_map(|(row, values)| {
+            joints.iter().zip(values).find(past).map(|(joint, _)| (row, joint.name.clone()))
+        });
+        if let Some((row, name)) = found {
+            let message = format!("row {row} puts joint {name} past its stop");
+            self.error(span, message, "`twin inspect` lists the stops of the robot");
+        }
+    }
+
+    /// Refuses beads that no extruder makes, and strands said to be on a bed that is elsewhere.
+    fn makes_sense(&mut self, strand: &Strand) {
+        const BEAD_M: std::ops::RangeInclusive<f64> = 1e-5..=0.1;
+        let settings = &strand.settings;
+        let mut speed_m_s = settings.speed_m_s;
+        let mut flow_m3_s = settings.flow.rate_m3_s(speed_m_s);
+        let mut beads = vec![process::bead::drawn_diameter_m(flow_m3_s, speed_m_s)];
+        for point in &strand.profile {
+            speed_m_s = point.speed_m_s.unwrap_or(speed_m_s);
+            flow_m3_s = point.flow_m3_s.unwrap_or(flow_m3_s);
+            beads.push(process::bead::drawn_diameter_m(flow_m3_s, speed_m_s));
+        }
+        if let Some(bead_m) = beads.iter().find(|bead_m| !BEAD_M.contains(bead_m)) {
+            let message = format!("strand `{}` has a bead of {} mm", strand.id, bead_m * 1e3);
+            let hint = "flow and speed must give a bead of 0.01 to 100 mm; where nothing is to be extruded, end the strand";
+            self.error(strand.span, message, hint);
+        }
+        let bed_from_part = placement(&self.document.placement);
+        let far = |point: &Point| (bed_from_part * point).z.abs() > 3.0 * beads[0];
+        let ends =
+            [(strand.start.join, strand.points.first()), (strand.end.join, strand.points.last())];
+        let joined = ends
+            .into_iter()
+            .filter(|(join, _)| *join == Some(Join::Bed))
+            .filter_map(|(_, point)| point);
+        let lying = strand.points.iter().filter(|_| strand.on == On::Bed);
+        if let Some(point) = joined.chain(lying).find(|point| far(point)) {
+            let height_mm = (bed_from_part * point).z * 1e3;
+            let message = format!(
+                "strand `{}` is said to be on the bed but is {height_mm:.1} mm above it",
+                strand.id
+            );
+            self.error(
+                strand.span,
+                message,
+                "heights are of the strand's axis; more than three beads is not on the bed",
+            );
+        }
+    }
+
     fn on(&self, on: Option<&Spanned<doc::On>>) -> On {
         match on.map(|on| &on.value) {
             None | Some(doc::On::Air) => On::Air,
@@ -290,7 +354,11 @@ impl Resolver<'_> {
                 doc::Step::Strand(id) => {
                     Step::Print(self.strand_index(id).expect("slam checked the id"))
                 }
-                doc::Step::Move(rows) => Step::Move(self.joint_rows(rows, step.span)),
+                doc::Step::Move(rows) => {
+                    let rows = self.joint_rows(rows, step.span);
+                    self.within_stops(&rows, step.span, |_| true);
+                    Step::Move(rows)
+                }
                 doc::Step::Wait(s) => Step::Wait(*s),
                 doc::Step::Release(id) => {
                     Step::Release(self.form_index(id).expect("slam checked the id"))

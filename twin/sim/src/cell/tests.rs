@@ -68,7 +68,7 @@ fn a_surface_normal_needs_a_form() {
 /// Files speak mm, degrees and MPa; a job is in SI.
 #[test]
 fn everything_is_in_si() {
-    let more = r#""placement": { "xyz_mm": [10, 20, 30], "rpy_deg": [0, 0, 90] },
+    let more = r#""placement": { "xyz_mm": [10, 20, 3], "rpy_deg": [0, 0, 90] },
         "environment": { "air_c": 30, "air_m_s": 0.2 },
         "loads": [{ "name": "l", "supports": [{ "at_mm": [0, 0, 1], "fix": "xzr" }],
                     "forces": [{ "at_mm": [30, 0, 1], "force_n": [0, 0, -5] }] }],
@@ -78,7 +78,7 @@ fn everything_is_in_si() {
         "start": { "join": "bed", "dwell_s": 1 }, "overrun_mm": 3, "dwell_s": 2, "times_s": [0, 8]"#;
     let job = job(&text("kr10-cone", more, &strand("a", &FLAT, of_strand)));
     assert!(
-        (job.bed_from_part * Point::new(0.1, 0.0, 0.0) - Point::new(0.01, 0.12, 0.03)).norm()
+        (job.bed_from_part * Point::new(0.1, 0.0, 0.0) - Point::new(0.01, 0.12, 0.003)).norm()
             < 1e-15
     );
     assert_eq!(job.air, Air { temperature_k: 303.15, speed_m_s: 0.2 });

@@ -97,15 +97,8 @@ impl<'a> Look<'a> {
             self.apart.insert(key, Apart { clearance_m, pose, other_pose });
             return;
         }
-        let limit_m = if may_touch { -self.half_bead_m() } else { self.job.limits.clearance_m };
+        let limit_m = if may_touch { -self.half_bead_m } else { self.job.limits.clearance_m };
         self.measured(code, clearance_m, limit_m, [&body.name, &other.name], now);
-    }
-
-    fn half_bead_m(&self) -> f64 {
-        let printed = self.leg.strand.and_then(|strand| {
-            self.deposit.strands.iter().find(|printed| printed.strand == strand)
-        });
-        printed.map_or(0.0, |printed| printed.radius_m)
     }
 
     /// Whether the nozzle works on the bed here: its strand lies on it, or ends on it nearby.
@@ -118,7 +111,7 @@ impl<'a> Look<'a> {
         }
         let ends =
             [(strand.start.join, strand.points.first()), (strand.end.join, strand.points.last())];
-        let low_m = 2.0 * self.half_bead_m();
+        let low_m = 2.0 * self.half_bead_m;
         let grounded = |(join, point): (Option<Join>, Option<&Point>)| {
             point.is_some_and(|point| {
                 let touches = match join {

@@ -57,11 +57,23 @@ pub fn check(
     findings: &mut Findings,
 ) -> Option<Nearest> {
     let bodies = Bodies::new(job);
+    let mut by_order: Vec<Vec<&Contact>> = vec![Vec::new(); deposit.strands.len()];
+    for contact in contacts {
+        contact.orders.iter().for_each(|&order| by_order[order].push(contact));
+    }
+    let mut order_of: Vec<Option<usize>> = vec![None; job.strands.len()];
+    for (order, printed) in deposit.strands.iter().enumerate() {
+        order_of[printed.strand] = Some(order);
+    }
     let parts: Vec<(Findings, Option<Nearest>)> = motion
         .legs
         .par_iter()
         .map(|leg| {
-            let mut look = Look::new(job, &bodies, deposit, contacts, leg);
+            let order = leg.strand.and_then(|strand| order_of[strand]);
+            let mut look = Look::new(job, &bodies, deposit, leg, order);
+            if let Some(order) = order.filter(|_| leg.phase != Phase::Transit) {
+                look.zone_contacts.clone_from(&by_order[order]);
+            }
             look.leg();
             (look.findings, look.nearest)
         })
@@ -106,6 +118,8 @@ struct Look<'a> {
     leg: &'a Leg,
     /// Contacts of the strand being approached, printed or left.
     zone_contacts: Vec<&'a Contact>,
+    /// Radius of the bead of that strand, m.
+    half_bead_m: f64,
     /// Where the nozzle leaves the strand, on a retract.
     left: Option<Point>,
     /// Bodies further apart than this are not measured.
@@ -143,21 +157,16 @@ impl<'a> Look<'a> {
         job: &'a Job,
         bodies: &'a Bodies,
         deposit: &'a Deposit,
-        contacts: &'a [Contact],
         leg: &'a Leg,
+        order: Option<usize>,
     ) -> Self {
-        let order = leg
-            .strand
-            .and_then(|strand| deposit.strands.iter().position(|printed| printed.strand == strand));
-        let concerns =
-            |contact: &&Contact| order.is_some_and(|order| contact.orders.contains(&order));
-        let zoned = leg.phase != Phase::Transit;
         Self {
             job,
             bodies,
             deposit,
             leg,
-            zone_contacts: contacts.iter().filter(concerns).filter(|_| zoned).collect(),
+            zone_contacts: Vec::new(),
+            half_bead_m: order.map_or(0.0, |order| deposit.strands[order].radius_m),
             left: None,
             horizon_m: 2.0 * job.limits.clearance_m,
             near: Vec::new(),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Segment;
-use crate::pose::Point;
+use crate::pose::{Point, Vector};
 
 /// Segments by the grid cells their boxes touch.
 ///
@@ -36,18 +36,26 @@ impl Index {
             n_segments: segments.len() as u32,
         };
         for (k, segment) in segments.iter().enumerate() {
-            let (low, high) = segment.bounds();
-            let range = index.range(low, high);
-            let [lowest, highest] = index.occupied;
-            index.occupied = [
-                std::array::from_fn(|axis| lowest[axis].min(range[0][axis])),
-                std::array::from_fn(|axis| highest[axis].max(range[1][axis])),
-            ];
-            for cell in cells(range) {
-                index.cells.entry(cell).or_default().push(k as u32);
+            for (low, high) in pieces(segment, edge_m) {
+                let range = index.range(low, high);
+                index.add(k as u32, range);
             }
         }
         index
+    }
+
+    fn add(&mut self, segment: u32, range: [[i32; 3]; 2]) {
+        let [lowest, highest] = self.occupied;
+        self.occupied = [
+            std::array::from_fn(|axis| lowest[axis].min(range[0][axis])),
+            std::array::from_fn(|axis| highest[axis].max(range[1][axis])),
+        ];
+        for cell in cells(range) {
+            let segments = self.cells.entry(cell).or_default();
+            if segments.last() != Some(&segment) {
+                segments.push(segment);
+            }
+        }
     }
 
     /// Segments that share a grid cell with the box, ascending, without repeats; all of them where
@@ -79,6 +87,19 @@ impl Index {
         let cell = |x: f64| (x / self.edge_m).floor() as i32;
         [[low.x, low.y, low.z].map(cell), [high.x, high.y, high.z].map(cell)]
     }
+}
+
+/// Boxes about pieces of a segment no longer than a cell's edge, bead included: a long strut across
+/// a fine grid touches the cells along it, not all in its box.
+fn pieces(segment: &Segment, edge_m: f64) -> impl Iterator<Item = (Point, Point)> {
+    let [a, b] = segment.ends;
+    let n_pieces = ((b - a).norm() / edge_m).ceil().max(1.0) as usize;
+    let skin = Vector::repeat(segment.radius_m);
+    (0..n_pieces).map(move |k| {
+        let at = |k: usize| a + (b - a) * (k as f64 / n_pieces as f64);
+        let (from, to) = (at(k), at(k + 1));
+        (from.inf(&to) - skin, from.sup(&to) + skin)
+    })
 }
 
 fn cells([l, h]: [[i32; 3]; 2]) -> impl Iterator<Item = [i32; 3]> {

@@ -33,8 +33,12 @@ fn index_agrees_with_looking_at_everything() {
         let (low, high) = (centre - Vector::repeat(0.01), centre + Vector::repeat(0.01));
         deposit.near(low, high, &mut found);
         for (index, segment) in deposit.segments.iter().enumerate() {
-            let (l, h) = segment.bounds();
-            let touches = (0..3).all(|axis| l[axis] <= high[axis] && h[axis] >= low[axis]);
+            let [a, b] = segment.ends;
+            let bead = Vector::repeat(segment.radius_m);
+            let (l, h) = (low - bead, high + bead);
+            let touches = (0..=500)
+                .map(|k| a + (b - a) * (f64::from(k) / 500.0))
+                .any(|point| (0..3).all(|axis| point[axis] >= l[axis] && point[axis] <= h[axis]));
             assert!(!touches || found.contains(&(index as u32)), "segment {index} missed at {k}");
         }
     }

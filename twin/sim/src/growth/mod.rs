@@ -15,8 +15,8 @@ pub use loads::LoadResult;
 
 use crate::cell::Job;
 use crate::deposit::{Contact, Deposit};
-use crate::finding::{Code, Findings, Site, Words};
-use crate::motion::Motion;
+use crate::finding::{Code, Findings, Phase, Site, Words};
+use crate::motion::{Leg, Motion};
 use crate::pose::Vector;
 use crate::structure::{Ask, SolveError, Stage, StageRecord, Strength, solve_stages};
 
@@ -160,9 +160,10 @@ fn stage(
 /// last one, where the arm came to rest.
 fn gravity(job: &Job, motion: &Motion, n_printed: usize) -> Vector {
     let chain = &job.cell.robot.arm.chain;
-    let next = motion.legs.iter().find(|leg| leg.printed >= n_printed && !leg.moments.is_empty());
-    let leg = next.or_else(|| motion.legs.iter().rfind(|leg| !leg.moments.is_empty()));
-    let q = leg.and_then(|leg| leg.moments.last()).map(|moment| moment.q);
+    let prints = |leg: &&Leg| leg.phase == Phase::Print && leg.printed == n_printed;
+    let next = motion.legs.iter().find(prints).and_then(|leg| leg.moments.first());
+    let last = || motion.legs.iter().rev().find_map(|leg| leg.moments.last());
+    let q = next.or_else(last).map(|moment| moment.q);
     let world_from_tip = q.map_or_else(|| chain.forward(&job.cell.home), |q| chain.forward(&q));
     job.gravity_in_part(&world_from_tip)
 }

@@ -70,8 +70,8 @@ const FROM_BED: &str = ", \"start\": { \"join\": \"bed\" }";
 
 #[test]
 fn a_crossing_makes_one_link_of_the_length_between_the_axes() {
-    let a = strand("a", &[[-20.0, 0.0, 40.0], [30.0, 0.0, 40.0]], FROM_BED);
-    let b = strand("b", &[[0.0, -10.0, 42.0], [0.0, 25.0, 42.0]], "");
+    let a = strand("a", &[[-20.0, 0.0, 5.0], [30.0, 0.0, 5.0]], FROM_BED);
+    let b = strand("b", &[[0.0, -10.0, 7.0], [0.0, 25.0, 7.0]], "");
     let built = Print::new("", &[a, b]).built();
     assert_eq!((built.frame.nodes().len(), built.frame.members().len()), (6, 5));
     assert_eq!(
@@ -139,7 +139,7 @@ fn an_end_said_to_be_free_is_not_joined() {
 #[test]
 fn a_cantilever_sags_as_in_the_books() {
     for length_mm in [20.0, 60.0, 150.0] {
-        let a = strand("a", &[[0.0, 0.0, 40.0], [length_mm, 0.0, 40.0]], FROM_BED);
+        let a = strand("a", &[[0.0, 0.0, 5.0], [length_mm, 0.0, 5.0]], FROM_BED);
         let print = Print::new("", &[a]);
         let (growth, _) = print.grown();
         let (length_m, g) = (length_mm / 1e3, print.job.cell.gravity_m_s2.norm());
@@ -165,8 +165,8 @@ fn a_cantilever_sags_as_in_the_books() {
 #[test]
 fn the_nozzle_pushes_a_cantilever_as_in_the_books() {
     let length_m: f64 = 0.05;
-    let a = strand("a", &[[0.0, 0.0, 40.0], [50.0, 0.0, 40.0]], FROM_BED);
-    let b = strand("b", &[[50.0, 0.0, 40.0], [50.0, 0.0, 60.0]], "");
+    let a = strand("a", &[[0.0, 0.0, 5.0], [50.0, 0.0, 5.0]], FROM_BED);
+    let b = strand("b", &[[50.0, 0.0, 5.0], [50.0, 0.0, 25.0]], "");
     let print = Print::new("", &[a, b]);
     let (growth, _) = print.grown();
     assert_eq!(growth.landings.len(), 1);

@@ -132,14 +132,19 @@ impl Along<'_> {
             hint: "turn the spin, tilt the nozzle or move the part away from this posture".to_owned(),
         });
         let deviation_m = (self.tcp(&moment.q) - sample.point).norm();
-        if self.job.strands[self.strand].joints.is_some() {
-            self.deviation(deviation_m, moment, sample, "at a given joint row", findings);
+        // Between given rows a controller that moves in lines keeps to the strand by itself.
+        let strand = &self.job.strands[self.strand];
+        let as_moved = sample.vertex || strand.settings.interpolation == Interpolation::Joint;
+        if strand.joints.is_some() && as_moved {
+            let place =
+                if sample.vertex { "at a given joint row" } else { "between two joint rows" };
+            self.deviation(deviation_m, moment, sample, place, findings);
         }
         StrandMotion {
             joint_speed_share: 0.0,
             joint_margin_rad,
             condition_number: near.condition,
-            deviation_m,
+            deviation_m: if as_moved { deviation_m } else { 0.0 },
         }
     }
 

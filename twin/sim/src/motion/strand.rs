@@ -3,7 +3,7 @@
 use crate::cell::{Job, Strand};
 use crate::kinematics::{Posture, Solution};
 use crate::pose::Point;
-use crate::toolpath::Path;
+use crate::toolpath::{Path, Sample};
 
 use super::ladder::{self, Ladder};
 
@@ -27,7 +27,10 @@ impl Postures {
 /// Postures along a strand, from its own joint path or from the ladder.
 pub(super) fn postures(job: &Job, path: &Path, ladder: &Ladder, from: &Posture) -> Postures {
     let q = match &job.strands[path.strand].joints {
-        Some(rows) => given(rows, path),
+        Some(rows) => {
+            let stations = crate::toolpath::stations(&job.strands[path.strand].points);
+            given(rows, &stations, path)
+        }
         None => searched(job, path, ladder, from),
     };
     let missing = path.samples.iter().zip(&q).filter(|(_, q)| q.is_none());
@@ -35,10 +38,21 @@ pub(super) fn postures(job: &Job, path: &Path, ladder: &Ladder, from: &Posture) 
     Postures { q, unreached }
 }
 
-/// The strand's own rows; samples in the overrun stay at the last row.
-fn given(rows: &[Vec<f64>], path: &Path) -> Vec<Option<Posture>> {
-    let row = |k: usize| rows.get(k.min(rows.len().saturating_sub(1))).map(|row| Posture::new(row));
-    (0..path.samples.len()).map(row).collect()
+/// The strand's own rows, one per vertex, joints turning evenly in between; samples in the overrun
+/// stay at the last row.
+fn given(rows: &[Vec<f64>], stations: &[f64], path: &Path) -> Vec<Option<Posture>> {
+    let at = |sample: &Sample| {
+        let k = stations.partition_point(|&x| x < sample.at_m).clamp(1, stations.len() - 1);
+        let share =
+            ((sample.at_m - stations[k - 1]) / (stations[k] - stations[k - 1])).clamp(0.0, 1.0);
+        let (from, to) = (rows.get(k - 1)?, rows.get(k)?);
+        let mut q = Posture::new(from);
+        for (value, target) in q.iter_mut().zip(to) {
+            *value += (target - *value) * share;
+        }
+        Some(q)
+    };
+    path.samples.iter().map(at).collect()
 }
 
 /// Between rungs, spin and elbow turn evenly; of the solutions there the one nearest to the
@@ -109,28 +123,15 @@ fn between(fan: &[f64], from: usize, to: usize, share: f64) -> f64 {
 /// t(s) = ∫ ds / v(s)
 /// ```
 ///
-/// `v` is the asked speed, constant between samples; a given time law is interpolated by arc
-/// length instead.
+/// `v` is the speed of the sample before, asked or from the strand's own times; those may begin
+/// later than the extrusion.
 pub(super) fn times(strand: &Strand, path: &Path) -> Vec<f64> {
-    if let Some(times_s) = &strand.times_s {
-        let stations = crate::toolpath::stations(&strand.points);
-        return path
-            .samples
-            .iter()
-            .map(|sample| interpolate(&stations, times_s, sample.at_m))
-            .collect();
-    }
-    let mut time_s = 0.0;
-    let mut times = vec![0.0];
+    let mut time_s =
+        strand.times_s.as_ref().and_then(|times| times.first()).copied().unwrap_or(0.0);
+    let mut times = vec![time_s];
     for pair in path.samples.windows(2) {
         time_s += (pair[1].at_m - pair[0].at_m) / pair[0].speed_m_s;
         times.push(time_s);
     }
     times
-}
-
-fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
-    let k = x.partition_point(|&x| x < at).clamp(1, x.len() - 1);
-    let share = ((at - x[k - 1]) / (x[k] - x[k - 1])).clamp(0.0, 1.0);
-    y[k - 1] + (y[k] - y[k - 1]) * share
 }

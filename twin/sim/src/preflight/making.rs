@@ -23,6 +23,8 @@ pub struct StrandResult {
     pub down: Vector,
     /// Number of earlier strands it touches.
     pub touches: usize,
+    /// Whether anything holds its start.
+    pub start_held: bool,
 }
 
 /// Makes every strand, in printing order, and judges it.
@@ -130,7 +132,7 @@ fn make_one(
 ) -> StrandResult {
     let strand = &job.strands[printed.strand];
     let tool = &job.cell.tool;
-    let (ends, span_m) = hold(job, printed, contacts);
+    let Hold { ends, span_m, start_held } = hold(job, printed, contacts);
     let is_print = |leg: &&Leg| leg.phase == Phase::Print && leg.strand == Some(printed.strand);
     let leg = motion.legs.iter().find(is_print);
     let (across_m_s2, down) = gravity(job, path, leg);
@@ -153,7 +155,8 @@ fn make_one(
         light: tool.light_ring,
     };
     let outcome = process::simulate(&input, &job.material);
-    StrandResult { strand: printed.strand, input, outcome, down, touches: contacts.len() }
+    let touches = contacts.len();
+    StrandResult { strand: printed.strand, input, outcome, down, touches, start_held }
 }
 
 /// Mean asked speed over the length, and the flow told, of what is extruded.
@@ -167,12 +170,19 @@ fn mean_speed_and_flow(path: &Path) -> (f64, f64) {
     (path.length_m / time_s, volume_m3 / time_s)
 }
 
-/// What holds a strand while it is printed, and its longest unsupported span.
-fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> (Ends, f64) {
+/// What holds a strand while it is printed.
+struct Hold {
+    ends: Ends,
+    /// Its longest unsupported span, m.
+    span_m: f64,
+    start_held: bool,
+}
+
+fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> Hold {
     let strand = &job.strands[printed.strand];
     let length_m = printed.at_m[printed.at_m.len() - 1];
     if strand.on != On::Air {
-        return (Ends::Resting, length_m);
+        return Hold { ends: Ends::Resting, span_m: length_m, start_held: true };
     }
     let near_m = 2.0 * printed.radius_m;
     let touches =
@@ -192,11 +202,17 @@ fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> (Ends, f64) {
     holds.extend(end_held.then_some(length_m));
     holds.sort_by(f64::total_cmp);
     let overhang_m = length_m - holds.last().copied().unwrap_or(0.0);
-    if !end_held && overhang_m > near_m {
-        return (Ends::StartHeld, overhang_m);
+    // A strand that begins in the air hangs on its first contact like one that ends there.
+    let lead_m = holds.first().copied().unwrap_or(length_m);
+    let trailing_m = if end_held { 0.0 } else { overhang_m };
+    let leading_m = if start_held { 0.0 } else { lead_m };
+    let overhang_m = f64::max(trailing_m, leading_m);
+    if overhang_m > near_m {
+        return Hold { ends: Ends::StartHeld, span_m: overhang_m, start_held };
     }
     let widest_m = holds.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    (Ends::BothHeld, if widest_m > 0.0 { widest_m } else { length_m })
+    let span_m = if widest_m > 0.0 { widest_m } else { length_m };
+    Hold { ends: Ends::BothHeld, span_m, start_held }
 }
 
 /// Largest component of gravity across the strand while it is printed, and its direction at that
@@ -250,6 +266,7 @@ struct Judge<'a> {
 fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Findings) {
     let this = Judge { job, printed, result };
     let (limits, outcome) = (&job.limits, &result.outcome);
+    this.start(findings);
     if result.input.ends != Ends::Resting {
         this.hold(Code::P301, outcome.sag_nozzle_m, limits.sag_m, None, findings, |mm| {
             (
@@ -318,6 +335,18 @@ fn slower(job: &Job, limit_m: f64, outcome: &StrandOutcome) -> String {
 }
 
 impl Judge<'_> {
+    /// S402: a strand that begins where nothing holds it.
+    fn start(&self, findings: &mut Findings) {
+        let (strand, time_s) = (self.result.strand, Some(self.printed.born_s));
+        let site = Site::strand(strand, 0.0).at(self.printed.as_planned[0]);
+        findings.forbid(Code::S402, !self.result.start_held, site, time_s, || Words {
+            message: format!("strand `{}` begins in free air", self.job.strands[strand].id),
+            hint:
+                "start it on the bed or on a strand that is there, or print it the other way round"
+                    .to_owned(),
+        });
+    }
+
     fn hold(
         &self,
         code: Code,

@@ -103,6 +103,13 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
     }
     say("process", "sag behind the nozzle uses closed forms; its growth with the fourth power of speed has no published measurement behind it.".to_owned());
     say("process", "a strand is made with its mean speed and flow.".to_owned());
+    let switched = |strand: &crate::cell::Strand| {
+        !strand.events.is_empty() || strand.settings.lights_after_m > 0.0
+    };
+    if job.strands.iter().any(switched) {
+        say("process", "`events` and `lights_after_mm` are carried to the program but not simulated: light and flow are taken as on along every strand.".to_owned());
+    }
+    say("process", "slack of over-fed strands is told but held against no limit.".to_owned());
     say("structure", "linear frame of set strands; what rests on bed or form is clamped until released, not one-sided.".to_owned());
     say("structure", "a strand's contacts with itself are not joined.".to_owned());
     say(

@@ -85,7 +85,9 @@ proptest! {
     fn hulls_hold_their_corners(points in prop::collection::vec([-0.3..0.3f64, -0.3..0.3, -0.3..0.3], 4..20)) {
         let hull = Shape::Hull { points: points.into_iter().map(Point::from).collect() };
         for corner in hull.corners() {
-            prop_assert!(outside_m(&hull, &corner) < 1e-6);
+            let off_m = outside_m(&hull, &corner);
+            // What f32 takes is what every stated clearance gives up for it.
+            prop_assert!(off_m < parry::ROUNDING_M, "{off_m} m outside");
         }
     }
 }

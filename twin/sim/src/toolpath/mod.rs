@@ -33,6 +33,8 @@ pub struct Sample {
     pub speed_m_s: f64,
     /// Flow the extruder is told, m³/s; zero in the overrun.
     pub flow_m3_s: f64,
+    /// Whether a vertex of the strand stands here.
+    pub vertex: bool,
 }
 
 /// A strand, sampled.
@@ -74,14 +76,15 @@ fn path(index: usize, strand: &Strand, around: &direction::Surroundings<'_>) -> 
         let (a, b) = (strand.points[segment], strand.points[segment + 1]);
         let share = ((at_m - stations[segment]) / (stations[segment + 1] - stations[segment]))
             .clamp(0.0, 1.0);
-        let (speed_m_s, flow_m3_s) = speed_and_flow(strand, at_m);
+        let (speed_m_s, flow_m3_s) = speed_and_flow(strand, &stations, at_m);
         samples.push(Sample {
             at_m,
             point: a + (b - a) * share,
             tangent: (b - a).normalize(),
-            nozzle: nozzle[segment].lerp(&nozzle[segment + 1], share).normalize(),
+            nozzle: nozzle_between(&nozzle[segment], &nozzle[segment + 1], share),
             speed_m_s,
             flow_m3_s,
+            vertex: stations.binary_search_by(|station| station.total_cmp(&at_m)).is_ok(),
         });
     }
     add_overrun(&mut samples, strand.settings.overrun_m);
@@ -99,16 +102,14 @@ pub fn stations(points: &[Point]) -> Vec<f64> {
     stations
 }
 
-/// Arc lengths of the samples: ends, corners, changes of the profile, evenly in between. A joint
-/// path of the strand's own has a row per vertex, so there the vertices are the samples.
+/// Arc lengths of the samples: ends, corners, changes of the profile, evenly in between. Where the
+/// strand brings joint rows or times, which belong to vertices, every vertex is a sample.
 fn sample_places(strand: &Strand, stations: &[f64]) -> Vec<f64> {
-    if strand.joints.is_some() {
-        return stations.to_vec();
-    }
+    let every_vertex = strand.joints.is_some() || strand.times_s.is_some();
     let points = &strand.points;
     let is_corner = |k: usize| {
         let (before, after) = (points[k] - points[k - 1], points[k + 1] - points[k]);
-        before.angle(&after) > CORNER_RAD
+        every_vertex || before.angle(&after) > CORNER_RAD
     };
     let length_m = stations.last().copied().unwrap_or(0.0);
     let corners = (1..points.len().saturating_sub(1)).filter(|&k| is_corner(k));
@@ -118,7 +119,8 @@ fn sample_places(strand: &Strand, stations: &[f64]) -> Vec<f64> {
     marks.extend([0.0, length_m]);
     marks.sort_by(f64::total_cmp);
     let mut places = vec![0.0];
-    for pair in thin_out(marks).windows(2) {
+    let marks = if every_vertex { marks } else { thin_out(marks) };
+    for pair in marks.windows(2).filter(|pair| pair[1] > pair[0]) {
         let n_steps = ((pair[1] - pair[0]) / STEP_M).ceil().max(1.0) as usize;
         let step_m = (pair[1] - pair[0]) / n_steps as f64;
         places.extend((1..n_steps).map(|k| pair[0] + step_m * k as f64));
@@ -141,12 +143,26 @@ fn thin_out(marks: Vec<f64>) -> Vec<f64> {
     kept
 }
 
-fn speed_and_flow(strand: &Strand, at_m: f64) -> (f64, f64) {
+/// Direction between two, turning evenly; opposite ones have no way between them, so the first
+/// is kept until the second is reached.
+fn nozzle_between(from: &Vector, to: &Vector, share: f64) -> Vector {
+    let mixed = from.lerp(to, share);
+    if mixed.norm() > 1e-6 { mixed.normalize() } else { *from }
+}
+
+/// Speed and flow from `at_m` on. Given times decide the speed; the extruder is told what it would
+/// be told at the asked one.
+fn speed_and_flow(strand: &Strand, stations: &[f64], at_m: f64) -> (f64, f64) {
     let mut speed_m_s = strand.settings.speed_m_s;
     let mut flow_m3_s = strand.settings.flow.rate_m3_s(speed_m_s);
     for point in strand.profile.iter().take_while(|point| point.at_m <= at_m) {
         speed_m_s = point.speed_m_s.unwrap_or(speed_m_s);
         flow_m3_s = point.flow_m3_s.unwrap_or(flow_m3_s);
+    }
+    if let Some(times_s) = &strand.times_s {
+        let after = stations.partition_point(|&station| station <= at_m);
+        let k = after.clamp(1, stations.len() - 1);
+        speed_m_s = (stations[k] - stations[k - 1]) / (times_s[k] - times_s[k - 1]);
     }
     (speed_m_s, flow_m3_s)
 }
@@ -188,6 +204,7 @@ fn add_overrun(samples: &mut Vec<Sample>, overrun_m: f64) {
             at_m: last.at_m + further_m,
             point: last.point + last.tangent * further_m,
             flow_m3_s: 0.0,
+            vertex: false,
             ..last
         }
     }));
