@@ -283,11 +283,16 @@ mod words {
         } else {
             format!("{body} comes within {:.2} mm of {other}", clearance_m * 1e3)
         };
-        let missing_mm = (limit_m - clearance_m) * 1e3;
+        // A warning lacks what the arm may be off; an error lacks that too.
+        let missing_mm = (limit_m + job.cell.robot.accuracy_m - clearance_m) * 1e3;
+        let own = strand.is_some_and(|strand| job.strands[strand].id == other);
         let hint = match code {
             _ if phase == Phase::Transit.word() => {
                 "lead the arm round it with a `move` step before the strand, or lengthen approach and retract"
                     .to_owned()
+            }
+            Code::C201 | Code::C202 if own => {
+                "tilt the nozzle away from the strand it leaves, or print that in the other direction".to_owned()
             }
             Code::C201 | Code::C202 => format!(
                 "print `{other}` after this strand, tilt the nozzle away, or move one of them by {missing_mm:.1} mm"

@@ -281,9 +281,10 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
             )
         });
     }
-    // A melt may set far behind the nozzle as long as it does not sag there.
-    let sets_by_light_or_clock = !matches!(job.material.setting, Setting::Thermoplastic(_));
-    if sets_by_light_or_clock && result.input.ends != Ends::Resting {
+    // A melt may set far behind the nozzle as long as it does not sag there, but set it must.
+    let by_light_or_clock = !matches!(job.material.setting, Setting::Thermoplastic(_));
+    let sets = outcome.set_distance_m.nominal.is_finite();
+    if !sets || (by_light_or_clock && result.input.ends != Ends::Resting) {
         this.hold(
             Code::P306,
             outcome.set_distance_m,
@@ -291,6 +292,10 @@ fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Fin
             None,
             findings,
             |mm| {
+                if !sets {
+                    let hint = "the air is too hot for a melt, or no light reaches a resin: see `air_c`, and the tool";
+                    return ("never sets here".to_owned(), hint.to_owned());
+                }
                 let share = limits.set_distance_m / outcome.set_distance_m.nominal;
                 let speed = result.input.speed_m_s * 1e3 * share;
                 (
@@ -368,8 +373,12 @@ impl Judge<'_> {
             || {
                 let id = &self.job.strands[self.result.strand].id;
                 let Interval { nominal, low, high } = measured;
-                let mm = |m: f64| m * 1e3;
-                let range = format!("{:.2} mm ({:.2} to {:.2})", mm(nominal), mm(low), mm(high));
+                let range = format!(
+                    "{} ({} to {})",
+                    millimetres(nominal),
+                    millimetres(low),
+                    millimetres(high)
+                );
                 let (message, hint) = words(range);
                 Words { message: format!("strand `{id}` {message}"), hint }
             },
@@ -377,9 +386,16 @@ impl Judge<'_> {
     }
 }
 
+fn millimetres(length_m: f64) -> String {
+    if length_m < ENDLESS_M { format!("{:.2} mm", length_m * 1e3) } else { "no end".to_owned() }
+}
+
+/// A length past any limit in use, that stands for one without end.
+const ENDLESS_M: f64 = 1e3;
+
 /// Reports hold finite numbers: an endless value becomes one kilometre, past any limit in use.
 fn finite(measured: Interval) -> Interval {
-    let cap = |value: f64| if value.is_nan() { 1e3 } else { value.min(1e3) };
+    let cap = |value: f64| if value.is_nan() { ENDLESS_M } else { value.min(ENDLESS_M) };
     Interval { nominal: cap(measured.nominal), low: cap(measured.low), high: cap(measured.high) }
 }
 

@@ -161,14 +161,14 @@ const ORIENTATION: Table = table(
             "tilt_from_deg",
             Kind::Number(Range::within(0.0, 90.0)),
             "°",
-            "0",
+            "20",
             "Inclination of the strand up to which the nozzle stays vertical.",
         ),
         optional(
             "tilt_max_deg",
             Kind::Number(Range::within(0.0, 180.0)),
             "°",
-            "none",
+            "40",
             "Largest tilt from the vertical.",
         ),
         optional(
@@ -219,7 +219,7 @@ const END: Table = table(
             "found from geometry",
             "What it is joined to: bed, free, or the id of a form or strand.",
         ),
-        optional("dwell_s", SECONDS, "s", "0", "Rest at this end."),
+        optional("dwell_s", SECONDS, "s", "start 0, end the strand's", "Rest at this end."),
     ]],
     Rule::Free,
 );
