@@ -233,6 +233,20 @@ pub struct Strand {
     pub settings: Settings,
 }
 
+impl Strand {
+    /// Asked speed, m/s, and flow told, m³/s, from `at_m` on; before the first profile point, and
+    /// for −∞, those of its settings.
+    pub fn asked(&self, at_m: f64) -> (f64, f64) {
+        let mut speed_m_s = self.settings.speed_m_s;
+        let mut flow_m3_s = self.settings.flow.rate_m3_s(speed_m_s);
+        for point in self.profile.iter().take_while(|point| point.at_m <= at_m) {
+            speed_m_s = point.speed_m_s.unwrap_or(speed_m_s);
+            flow_m3_s = point.flow_m3_s.unwrap_or(flow_m3_s);
+        }
+        (speed_m_s, flow_m3_s)
+    }
+}
+
 /// One step of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Step {

@@ -271,15 +271,13 @@ impl Resolver<'_> {
     /// Refuses beads that no extruder makes, and strands said to be on a bed that is elsewhere.
     fn makes_sense(&mut self, strand: &Strand) {
         const BEAD_M: std::ops::RangeInclusive<f64> = 1e-5..=0.1;
-        let settings = &strand.settings;
-        let mut speed_m_s = settings.speed_m_s;
-        let mut flow_m3_s = settings.flow.rate_m3_s(speed_m_s);
-        let mut beads = vec![process::bead::drawn_diameter_m(flow_m3_s, speed_m_s)];
-        for point in &strand.profile {
-            speed_m_s = point.speed_m_s.unwrap_or(speed_m_s);
-            flow_m3_s = point.flow_m3_s.unwrap_or(flow_m3_s);
-            beads.push(process::bead::drawn_diameter_m(flow_m3_s, speed_m_s));
-        }
+        let places =
+            std::iter::once(f64::NEG_INFINITY).chain(strand.profile.iter().map(|p| p.at_m));
+        let bead = |at_m: f64| {
+            let (speed_m_s, flow_m3_s) = strand.asked(at_m);
+            process::bead::drawn_diameter_m(flow_m3_s, speed_m_s)
+        };
+        let beads: Vec<f64> = places.map(bead).collect();
         if let Some(bead_m) = beads.iter().find(|bead_m| !BEAD_M.contains(bead_m)) {
             let message = format!("strand `{}` has a bead of {} mm", strand.id, bead_m * 1e3);
             let hint = "flow and speed must give a bead of 0.01 to 100 mm; where nothing is to be extruded, end the strand";

@@ -153,12 +153,7 @@ fn nozzle_between(from: &Vector, to: &Vector, share: f64) -> Vector {
 /// Speed and flow from `at_m` on. Given times decide the speed; the extruder is told what it would
 /// be told at the asked one.
 fn speed_and_flow(strand: &Strand, stations: &[f64], at_m: f64) -> (f64, f64) {
-    let mut speed_m_s = strand.settings.speed_m_s;
-    let mut flow_m3_s = strand.settings.flow.rate_m3_s(speed_m_s);
-    for point in strand.profile.iter().take_while(|point| point.at_m <= at_m) {
-        speed_m_s = point.speed_m_s.unwrap_or(speed_m_s);
-        flow_m3_s = point.flow_m3_s.unwrap_or(flow_m3_s);
-    }
+    let (mut speed_m_s, flow_m3_s) = strand.asked(at_m);
     if let Some(times_s) = &strand.times_s {
         let after = stations.partition_point(|&station| station <= at_m);
         let k = after.clamp(1, stations.len() - 1);
