@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 16] = [
+const MAY_USE: [(&str, &[&str]); 17] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
@@ -20,7 +20,8 @@ const MAY_USE: [(&str, &[&str]); 16] = [
     ("toolpath", &["cell", "parry", "pose"]),
     ("motion", &["toolpath", "kinematics", "finding", "cell", "interval", "pose"]),
     ("deposit", &["toolpath", "pose"]),
-    ("collision", &["deposit", "motion", "finding", "cell", "shape", "parry", "interval", "pose"]),
+    ("clearance", &["deposit", "kinematics", "cell", "shape", "parry", "pose"]),
+    ("collision", &["clearance", "deposit", "motion", "finding", "cell", "interval", "pose"]),
     ("growth", &["structure", "deposit", "motion", "finding", "cell", "interval", "pose"]),
     (
         "preflight",

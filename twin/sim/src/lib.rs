@@ -5,6 +5,7 @@
 //! in the tidy test of the `tests` package.
 
 pub mod cell;
+pub mod clearance;
 pub mod collision;
 pub mod deposit;
 pub mod finding;

@@ -1,8 +1,8 @@
 //! Tool, arm and moving bed against bed, forms, fixtures and the arm itself.
 
-use super::bodies::{Body, LinkBody};
 use super::{Apart, Look, Now};
 use crate::cell::{Join, Mode, On};
+use crate::clearance::{Body, LinkBody};
 use crate::finding::{Code, Phase};
 use crate::pose::{Point, Pose};
 

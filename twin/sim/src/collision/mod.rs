@@ -13,8 +13,6 @@
 //! Beads are tested at full width into nodes and crossings. What may touch is the *touch zone* of
 //! the cell: the nozzle within that distance of a place where its strand touches the other one.
 
-mod bodies;
-mod exact;
 mod fixtures;
 mod strands;
 #[cfg(test)]
@@ -32,7 +30,7 @@ use crate::interval::Interval;
 use crate::motion::{Leg, Motion};
 use crate::pose::{Point, Pose};
 
-use bodies::Bodies;
+use crate::clearance::Bodies;
 
 /// Smallest clearance found, with its pair.
 #[derive(Debug, Clone, PartialEq)]

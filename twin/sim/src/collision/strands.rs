@@ -1,8 +1,8 @@
 //! Tool and arm against the deposit.
 
-use super::bodies::Body;
 use super::zone::{self, Piece};
 use super::{Look, Now};
+use crate::clearance::Body;
 use crate::finding::{Code, Phase};
 use crate::pose::{Point, Pose, Vector};
 

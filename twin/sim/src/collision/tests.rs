@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
-use super::bodies::Bodies;
 use super::*;
+use crate::clearance::Bodies;
 use crate::deposit::Printed;
 use crate::parry::{ROUNDING_M, SLACK};
 use crate::pose::{self, Vector};
@@ -19,7 +19,7 @@ fn by_hand_m(r_mm: f64, h_mm: f64, bead_mm: f64) -> f64 {
 }
 
 /// The nozzle as a body.
-fn with_nozzle(test: impl Fn(&super::bodies::Body)) {
+fn with_nozzle(test: impl Fn(&crate::clearance::Body)) {
     static BODIES: std::sync::LazyLock<Bodies> = std::sync::LazyLock::new(|| {
         Bodies::new(&job(&text("kr10-cone", "", &strand("a", &[[0.0; 3], [9.0, 0.0, 0.0]], ""))))
     });

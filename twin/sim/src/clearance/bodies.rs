@@ -10,7 +10,7 @@ use crate::pose::{Point, Pose, Vector};
 use crate::shape::Shape;
 
 /// A convex shape (or mesh) in the axes of its body.
-pub(super) struct Solid {
+pub(crate) struct Solid {
     shape: SharedShape,
     /// Its surface without the skin; empty for a mesh, which is not convex.
     triangles: Vec<Triangle>,
@@ -22,44 +22,44 @@ pub(super) struct Solid {
 }
 
 /// A named body.
-pub(super) struct Body {
-    pub(super) name: String,
-    pub(super) solids: Vec<Solid>,
+pub(crate) struct Body {
+    pub(crate) name: String,
+    pub(crate) solids: Vec<Solid>,
     /// Bounding sphere in body axes.
-    pub(super) centre: Point,
-    pub(super) radius_m: f64,
+    pub(crate) centre: Point,
+    pub(crate) radius_m: f64,
 }
 
 /// A part of the tool.
-pub(super) struct ToolBody {
-    pub(super) nozzle: bool,
-    pub(super) body: Body,
+pub(crate) struct ToolBody {
+    pub(crate) nozzle: bool,
+    pub(crate) body: Body,
 }
 
 /// A link of the arm.
-pub(super) struct LinkBody {
-    pub(super) carrier: Option<usize>,
-    pub(super) carrier_from_link: Pose,
-    pub(super) body: Body,
+pub(crate) struct LinkBody {
+    pub(crate) carrier: Option<usize>,
+    pub(crate) carrier_from_link: Pose,
+    pub(crate) body: Body,
 }
 
 /// All bodies of a cell.
-pub(super) struct Bodies {
-    pub(super) tool: Vec<ToolBody>,
-    pub(super) links: Vec<LinkBody>,
+pub(crate) struct Bodies {
+    pub(crate) tool: Vec<ToolBody>,
+    pub(crate) links: Vec<LinkBody>,
     /// Pairs of links that are measured against each other.
-    pub(super) link_pairs: Vec<[usize; 2]>,
+    pub(crate) link_pairs: Vec<[usize; 2]>,
     /// Links the tool (or the bed, if that rides) is measured against: all but those that carry it.
-    pub(super) links_off_flange: Vec<usize>,
-    pub(super) bed: Body,
+    pub(crate) links_off_flange: Vec<usize>,
+    pub(crate) bed: Body,
     /// World axes.
-    pub(super) obstacles: Vec<Body>,
+    pub(crate) obstacles: Vec<Body>,
     /// Part axes.
-    pub(super) forms: Vec<Body>,
+    pub(crate) forms: Vec<Body>,
 }
 
 impl Bodies {
-    pub(super) fn new(job: &Job) -> Self {
+    pub(crate) fn new(job: &Job) -> Self {
         let cell = &job.cell;
         let tool = cell
             .tool
@@ -124,7 +124,7 @@ impl Body {
     ///
     /// Where the axis itself lies in the body the bead's radius is returned as overlap: it is at
     /// least that deep.
-    pub(super) fn to_bead(
+    pub(crate) fn to_bead(
         &self,
         pose: &Pose,
         piece: &[Point; 2],
@@ -149,7 +149,7 @@ impl Body {
     ///
     /// Pairs of solids are taken by the gap of their bounding spheres, nearest first, until that
     /// gap alone is beyond what was found.
-    pub(super) fn to_body(
+    pub(crate) fn to_body(
         &self,
         pose: &Pose,
         other: &Self,
@@ -196,7 +196,7 @@ impl Body {
     }
 
     /// Bound on how far any point of the body moved between two poses, m.
-    pub(super) fn moved(&self, from: &Pose, to: &Pose) -> f64 {
+    pub(crate) fn moved(&self, from: &Pose, to: &Pose) -> f64 {
         (to * self.centre - from * self.centre).norm()
             + from.rotation.angle_to(&to.rotation) * self.radius_m
     }
