@@ -11,6 +11,7 @@
 
 mod between;
 mod check;
+mod clock;
 mod ladder;
 mod strand;
 #[cfg(test)]
@@ -20,7 +21,7 @@ pub use check::{StrandMotion, check};
 
 use crate::cell::{Job, Step};
 use crate::finding::Phase;
-use crate::kinematics::{Arm, Coverage, IkOptions, Posture, Solution};
+use crate::kinematics::{Coverage, IkOptions, Posture, Solution};
 use crate::pose::{self, Point, Pose, Vector};
 use crate::toolpath::Path;
 
@@ -74,115 +75,122 @@ pub struct Motion {
     pub total_s: f64,
 }
 
+/// A stretch of motion that has no times yet.
+#[derive(Debug, Clone)]
+struct Way {
+    phase: Phase,
+    strand: Option<usize>,
+    printed: usize,
+    stations: Vec<Station>,
+    unreached: Vec<(f64, Point)>,
+}
+
+/// One posture of a way.
+#[derive(Debug, Clone, Copy)]
+struct Station {
+    at_m: f64,
+    q: Posture,
+}
+
+/// What the program does, in order.
+#[derive(Debug, Clone)]
+enum Act {
+    Go(Way),
+    Wait(f64),
+    Release(usize),
+}
+
 /// Plans the motion of a job along `paths` (one per strand of the job, in its order).
 pub fn plan(job: &Job, paths: &[Path]) -> Motion {
-    let mut planner = Planner {
-        job,
-        arm: &job.cell.robot.arm,
-        motion: Motion {
-            legs: Vec::new(),
-            printings: Vec::new(),
-            releases: Vec::new(),
-            total_s: 0.0,
-        },
-        at: Posture::new(&job.cell.home),
-        top_m: 0.0,
-    };
-    let order: Vec<usize> = job.print_order().collect();
-    let mut ladders = Vec::new();
-    for step in &job.steps {
-        match step {
-            Step::Print(strand) => {
-                // Ladders are large: they are made for a batch of strands and dropped after it.
-                let done = planner.motion.printings.len();
-                if done.is_multiple_of(BATCH) {
-                    let batch = &order[done..order.len().min(done + BATCH)];
-                    ladders = ladder::rungs_of(job, paths, batch);
-                }
-                planner.print(&paths[*strand], &ladders[done % BATCH]);
-            }
-            Step::Move(rows) => planner.follow(rows),
-            Step::Wait(wait_s) => planner.motion.total_s += wait_s,
-            Step::Release(form) => {
-                let printed = planner.motion.printings.len();
-                planner.motion.releases.push((*form, printed, planner.motion.total_s));
-            }
-            Step::Checkpoint(_) => {}
-        }
-    }
-    planner.motion
+    let mut acts = along_strands(job, paths);
+    between::fill_transits(job, &mut acts);
+    clock::timed(job, paths, acts)
 }
 
 /// Strands whose ladders are made at once, in parallel.
 const BATCH: usize = 64;
 
-/// The state of planning: where the arm is, how high the deposit stands.
-struct Planner<'a> {
-    job: &'a Job,
-    arm: &'a Arm,
-    motion: Motion,
-    at: Posture,
-    /// Highest point printed so far, along the bed's z, m.
-    top_m: f64,
+/// The program with its transits still empty: postures along each strand, from where the one before
+/// left the arm.
+fn along_strands(job: &Job, paths: &[Path]) -> Vec<Act> {
+    let order: Vec<usize> = job.print_order().collect();
+    let mut acts = Vec::new();
+    let mut ladders = Vec::new();
+    let mut at = Posture::new(&job.cell.home);
+    let mut done = 0_usize;
+    for step in &job.steps {
+        match step {
+            Step::Print(strand) => {
+                // Ladders are large: they are made for a batch of strands and dropped after it.
+                if done.is_multiple_of(BATCH) {
+                    let batch = &order[done..order.len().min(done + BATCH)];
+                    ladders = ladder::rungs_of(job, paths, batch);
+                }
+                let postures = strand::postures(job, &paths[*strand], &ladders[done % BATCH], &at);
+                let ways = around_print(job, &paths[*strand], postures, done);
+                at = ways.iter().filter_map(Way::last).next_back().unwrap_or(at);
+                acts.extend(ways.into_iter().map(Act::Go));
+                done += 1;
+            }
+            Step::Move(rows) => {
+                let way = between::follow(&at, rows, done);
+                at = way.last().unwrap_or(at);
+                acts.push(Act::Go(way));
+            }
+            Step::Wait(wait_s) => acts.push(Act::Wait(*wait_s)),
+            Step::Release(form) => acts.push(Act::Release(*form)),
+            Step::Checkpoint(_) => {}
+        }
+    }
+    acts
 }
 
-impl Planner<'_> {
-    fn print(&mut self, path: &Path, ladder: &ladder::Ladder) {
-        let postures = strand::postures(self.job, path, ladder, &self.at);
-        let Some((first, last)) = postures.ends() else {
-            self.leg(Phase::Print, Some(path.strand), Vec::new(), postures.unreached);
-            let now = self.motion.total_s;
-            self.motion.printings.push(Printing { strand: path.strand, start_s: now, end_s: now });
-            return;
-        };
-        let settings = &self.job.strands[path.strand].settings;
-        let (start, end) = (&path.samples[first], &path.samples[last]);
-        let q_start = postures.q[first].expect("the first reached sample has a posture");
-        let approach = self.straight(start, &q_start, settings.approach_m);
-        let q_above = approach.last().copied().unwrap_or(q_start);
-        self.transit(path.strand, &q_above);
-        self.cartesian(
-            Phase::Approach,
-            path.strand,
-            approach.iter().rev().copied().chain([q_start]),
-        );
-        self.extrude(path, &postures);
-        let q_end = postures.q[last].expect("the last reached sample has a posture");
-        let retract = self.straight(end, &q_end, settings.retract_m);
-        self.cartesian(Phase::Retract, path.strand, [q_end].into_iter().chain(retract));
-        let up = |point: &Point| (self.job.bed_from_part * point).z;
-        let points = self.job.strands[path.strand].points.iter();
-        self.top_m = points.map(up).fold(self.top_m, f64::max);
+/// Transit (still empty), approach, print and retract of one strand.
+fn around_print(job: &Job, path: &Path, postures: strand::Postures, printed: usize) -> Vec<Way> {
+    let way = |phase, printed, stations| Way {
+        phase,
+        strand: Some(path.strand),
+        printed,
+        stations,
+        unreached: Vec::new(),
+    };
+    let ends = postures.ends();
+    let stations = path.samples.iter().zip(&postures.q);
+    let print = Way {
+        unreached: postures.unreached.clone(),
+        ..way(
+            Phase::Print,
+            printed,
+            stations
+                .filter_map(|(sample, q)| q.map(|q| Station { at_m: sample.at_m, q }))
+                .collect(),
+        )
+    };
+    let Some((first, last)) = ends else { return vec![print] };
+    let settings = &job.strands[path.strand].settings;
+    let straight = |sample: usize, length_m| {
+        let q = postures.q[sample].expect("both ends are reached");
+        let mut way = vec![q];
+        way.extend(between::straight(job, &path.samples[sample], &q, length_m));
+        way.into_iter().map(|q| Station { at_m: 0.0, q }).collect::<Vec<_>>()
+    };
+    let mut approach = straight(first, settings.approach_m);
+    approach.reverse();
+    vec![
+        way(Phase::Transit, printed, Vec::new()),
+        way(Phase::Approach, printed, approach),
+        print,
+        way(Phase::Retract, printed + 1, straight(last, settings.retract_m)),
+    ]
+}
+
+impl Way {
+    fn first(&self) -> Option<Posture> {
+        self.stations.first().map(|station| station.q)
     }
 
-    fn extrude(&mut self, path: &Path, postures: &strand::Postures) {
-        let strand = &self.job.strands[path.strand];
-        self.motion.total_s += strand.settings.prime_s + strand.start.dwell_s;
-        let start_s = self.motion.total_s;
-        let times = strand::times(strand, path);
-        let moments =
-            path.samples.iter().zip(&times).zip(&postures.q).filter_map(|((sample, time_s), q)| {
-                q.map(|q| Moment { time_s: start_s + time_s, at_m: sample.at_m, q })
-            });
-        self.leg(Phase::Print, Some(path.strand), moments.collect(), postures.unreached.clone());
-        self.motion.total_s = start_s + times.last().copied().unwrap_or(0.0);
-        let end_s = self.motion.total_s;
-        self.motion.total_s += strand.end.dwell_s;
-        self.motion.printings.push(Printing { strand: path.strand, start_s, end_s });
-    }
-
-    fn leg(
-        &mut self,
-        phase: Phase,
-        strand: Option<usize>,
-        moments: Vec<Moment>,
-        unreached: Vec<(f64, Point)>,
-    ) {
-        if let Some(last) = moments.last() {
-            self.at = last.q;
-        }
-        let printed = self.motion.printings.len();
-        self.motion.legs.push(Leg { phase, strand, printed, moments, unreached });
+    fn last(&self) -> Option<Posture> {
+        self.stations.last().map(|station| station.q)
     }
 }
 
