@@ -8,7 +8,11 @@ mod by_hand;
 #[cfg(test)]
 mod invariance;
 #[cfg(test)]
+mod peers;
+#[cfg(test)]
 mod pictures;
+#[cfg(test)]
+mod planted;
 #[cfg(test)]
 mod reference;
 #[cfg(test)]

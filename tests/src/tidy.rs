@@ -6,19 +6,36 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 17] = [
+const MAY_USE: [(&str, &[&str]); 20] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
     ("shape", &["parry", "pose"]),
     ("scene", &["shape", "parry", "pose"]),
     ("kinematics", &["pose"]),
+    ("timing", &["kinematics", "pose"]),
+    ("dynamics", &["kinematics", "pose"]),
     ("process", &["interval"]),
     ("structure", &["pose"]),
     ("finding", &["interval", "pose"]),
-    ("cell", &["kinematics", "process", "shape", "interval", "pose"]),
+    ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),
     ("toolpath", &["cell", "parry", "pose"]),
-    ("motion", &["toolpath", "kinematics", "finding", "cell", "interval", "pose"]),
+    (
+        "motion",
+        &[
+            "clearance",
+            "deposit",
+            "timing",
+            "dynamics",
+            "toolpath",
+            "kinematics",
+            "finding",
+            "cell",
+            "interval",
+            "pose",
+        ],
+    ),
+    ("program", &["toolpath", "motion", "kinematics", "finding", "cell", "interval", "pose"]),
     ("deposit", &["toolpath", "pose"]),
     ("clearance", &["deposit", "kinematics", "cell", "shape", "parry", "pose"]),
     ("collision", &["clearance", "deposit", "motion", "finding", "cell", "interval", "pose"]),
@@ -26,7 +43,10 @@ const MAY_USE: [(&str, &[&str]); 17] = [
     (
         "preflight",
         &[
+            "program",
+            "dynamics",
             "scene",
+            "program",
             "growth",
             "collision",
             "deposit",

@@ -11,6 +11,7 @@ mod files;
 mod inspect;
 mod library;
 mod load;
+mod map;
 mod names;
 mod plan;
 mod refusal;
@@ -56,6 +57,7 @@ struct Twin {
 enum Command {
     Check(check::Check),
     Plan(plan::Plan),
+    Map(map::Map),
     Inspect(inspect::Inspect),
     Explain(explain::Explain),
     Schema(schema::Schema),
@@ -105,6 +107,7 @@ impl Command {
         match self {
             Self::Check(command) => command.run(screen),
             Self::Plan(command) => command.run(screen),
+            Self::Map(command) => command.run(screen),
             Self::Inspect(command) => command.run(screen),
             Self::Explain(command) => command.run(screen),
             Self::Schema(command) => command.run(screen),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use report::Input;
-use sim::cell::{Job, Parts, resolve};
+use sim::cell::{Cell, Job, Parts, resolve};
 use slam::cell_file::{self, CellFile};
 use slam::document::{Document, Form};
 use slam::material_file::{self, MaterialFile};
@@ -112,6 +112,19 @@ pub(crate) fn cell_parts(
     inputs.extend(robot.notes.iter().map(|(notes, _)| input("robot", notes)));
     inputs.push(input("tool", &found.source));
     Ok(CellParts { packages: packages.collect(), cell, robot, tool, inputs })
+}
+
+/// The cell alone, without shapes of its links: enough to ask where its arm puts the nozzle.
+pub(crate) fn bare_machine(parts: &CellParts, material: &MaterialFile) -> Result<Cell, String> {
+    sim::cell::machine(&Parts {
+        cell: &parts.cell,
+        robot: parts.robot.notes.as_ref().map(|(_, notes)| notes),
+        urdf: &parts.robot.urdf,
+        link_meshes: &BTreeMap::new(),
+        tool: &parts.tool,
+        material,
+        form_meshes: &[],
+    })
 }
 
 /// A material by name or path, and its text.

@@ -15,7 +15,8 @@ use crate::{FEASIBLE, REFUSED, files};
 /// Turn a wireframe or curves into a job
 ///
 /// FRAME.json is a frame of the `assembly_instances` family: one strand per element, bottom-up or
-/// in the given order. CURVES.csv has the header strand,x_mm,y_mm,z_mm[,dx,dy,dz].
+/// in the given order; or a joint-space plan of pb-construction, whose joint paths become the
+/// job's own. CURVES.csv has the header strand,x_mm,y_mm,z_mm[,dx,dy,dz].
 #[derive(Debug, clap::Args)]
 pub(crate) struct Plan {
     /// Frame (.json) or curves (.csv)
@@ -71,6 +72,15 @@ impl Plan {
                 )
                 .hint("leave --order out, or sort the strands of the CSV file")
                 .into());
+            }
+            (Some("json"), None) if plan::is_peer_plan(&design) => {
+                let orifice = self.orifice(&library)?;
+                plan::peer_plan(&design, &options, &|q| orifice.at(q))
+            }
+            (Some("json"), Some(order)) if plan::is_peer_plan(&design) => {
+                return Err(Refusal::whole(&order.name, "a plan comes with its own order")
+                    .hint("leave --order out")
+                    .into());
             }
             (Some("json"), order) => plan::wireframe(&design, order.as_ref(), &options),
             _ => {
@@ -135,6 +145,18 @@ impl Plan {
         })
     }
 
+    /// Where the cell's arm puts the orifice; kept apart from the planner, which knows no kinematics.
+    fn orifice(&self, library: &Library) -> Result<Orifice, Refusal> {
+        let argument = Source::new("--cell", &self.cell);
+        let naming =
+            Naming { source: &argument, span: Span::default(), folder: Some(Path::new(".")) };
+        let parts = load::cell_parts(&self.cell, &naming, library)?;
+        let (material, _) = load::material(&self.material, &naming, library)?;
+        let cell = load::bare_machine(&parts, &material)
+            .map_err(|fault| Refusal::whole(&self.cell, format!("cannot be used: {fault}")))?;
+        Ok(Orifice { cell })
+    }
+
     /// A name as it is; a path, which the user gave from here, as seen from the job's folder.
     fn seen_from_job(&self, name: &str) -> Result<String, Refusal> {
         let Some(output) = &self.output else { return Ok(name.to_owned()) };
@@ -166,6 +188,25 @@ impl Plan {
                 "the job would be refused and was not written; see the design and the options",
             )),
         }
+    }
+}
+
+/// The cell whose arm a peer's plan was made for.
+struct Orifice {
+    cell: sim::cell::Cell,
+}
+
+impl Orifice {
+    /// Place of the orifice in bed axes, mm.
+    fn at(&self, q: &[f64]) -> Option<[f64; 3]> {
+        let chain = &self.cell.robot.arm.chain;
+        if q.len() != chain.dof() {
+            return None;
+        }
+        let tip = chain.forward(q);
+        let bed_from_tool =
+            self.cell.world_from_bed(&tip).inverse() * self.cell.world_from_tool(&tip);
+        Some((bed_from_tool.translation.vector * 1e3).into())
     }
 }
 

@@ -51,7 +51,7 @@ pub(crate) struct PartPose {
 
 /// Reads a frame; `None` if anything in it is an error.
 pub(crate) fn read(source: &Source, diagnostics: &mut Vec<Diagnostic>) -> Option<Frame> {
-    match parse(source).and_then(|root| frame(&root, diagnostics)) {
+    match parse(source).and_then(|root| frame_of(&root, diagnostics)) {
         Ok(frame) if !crate::any_error(diagnostics) => Some(frame),
         Ok(_) => None,
         Err(fatal) => {
@@ -62,7 +62,10 @@ pub(crate) fn read(source: &Source, diagnostics: &mut Vec<Diagnostic>) -> Option
 }
 
 /// What a file must have at its root is fatal; what is wrong with one node or element is listed.
-fn frame(root: &Value, diagnostics: &mut Vec<Diagnostic>) -> Result<Frame, Diagnostic> {
+pub(crate) fn frame_of(
+    root: &Value,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Frame, Diagnostic> {
     let root = object(root, "a frame file")?;
     let mm = unit_mm(need(root, "unit").map_err(|d| d.hint("write \"unit\": \"millimeter\""))?)?;
     let node_values = array(need(root, "node_list")?, "`node_list`")?;

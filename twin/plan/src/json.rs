@@ -16,7 +16,8 @@ pub(crate) fn parse(source: &Source) -> Result<Value<'_>, Diagnostic> {
         allow_hexadecimal_numbers: false,
         allow_unary_plus_numbers: false,
         allow_bare_decimal_point_numbers: false,
-        allow_non_finite_numbers: false,
+        // Python writes them; where a number is needed they are refused.
+        allow_non_finite_numbers: true,
         allow_extended_string_escapes: false,
     };
     match parse_to_ast(&source.text, &CollectOptions::default(), &strict) {

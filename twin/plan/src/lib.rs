@@ -7,6 +7,7 @@
 //! | design                                    | function      |
 //! |-------------------------------------------|---------------|
 //! | frame JSON of the `assembly_instances` family | [`wireframe()`] |
+//! | joint-space plan of pb-construction, as it stands | [`peer_plan()`] |
 //! | CSV `strand,x_mm,y_mm,z_mm[,dx,dy,dz]`    | [`curves()`]  |
 
 mod curves;
@@ -14,12 +15,14 @@ mod document;
 mod frame;
 mod json;
 mod order;
+mod peer;
 mod placement;
 #[cfg(test)]
 mod tests;
 mod wireframe;
 
 pub use curves::curves;
+pub use peer::{OrificeOf, is_peer_plan, peer_plan};
 pub use wireframe::wireframe;
 
 use slam::{Diagnostic, Document};

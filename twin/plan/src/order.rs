@@ -96,12 +96,7 @@ fn match_elements(
     frame: &Frame,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Directed> {
-    let element_of: BTreeMap<[usize; 2], usize> = frame
-        .elements
-        .iter()
-        .enumerate()
-        .map(|(index, element)| (sorted(element.nodes), index))
-        .collect();
+    let element_of = elements_by_nodes(frame);
     let mut order = Vec::with_capacity(pairs.len());
     let mut listed = vec![false; frame.elements.len()];
     for &([from, to], at) in pairs {
@@ -130,7 +125,13 @@ fn match_elements(
     order
 }
 
-fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
+/// The element that each pair of nodes is joined by, the smaller first.
+pub(crate) fn elements_by_nodes(frame: &Frame) -> BTreeMap<[usize; 2], usize> {
+    let elements = frame.elements.iter().enumerate();
+    elements.map(|(index, element)| (sorted(element.nodes), index)).collect()
+}
+
+pub(crate) fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 

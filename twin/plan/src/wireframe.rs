@@ -60,7 +60,11 @@ pub fn wireframe(
 }
 
 /// The file's bead before the asked one; a word where they differ.
-fn diameter_mm(frame: &Frame, options: &Options, diagnostics: &mut Vec<Diagnostic>) -> Option<f64> {
+pub(crate) fn diameter_mm(
+    frame: &Frame,
+    options: &Options,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<f64> {
     if let (Some(of_file), Some(asked)) = (frame.diameter_mm, options.diameter_mm)
         && (of_file - asked).abs() > 1e-6
     {
@@ -72,7 +76,7 @@ fn diameter_mm(frame: &Frame, options: &Options, diagnostics: &mut Vec<Diagnosti
     frame.diameter_mm.or(options.diameter_mm)
 }
 
-fn strands(
+pub(crate) fn strands(
     frame: &Frame,
     order: &[Directed],
     heights_mm: &[f64],

@@ -9,6 +9,7 @@ mod canvas;
 mod cpu;
 mod gpu;
 mod layer;
+mod map;
 mod overlay;
 mod paint;
 mod shade;
@@ -20,6 +21,7 @@ pub mod view;
 mod tests;
 
 use image::RgbaImage;
+pub use map::spin_map;
 pub use sheet::sheet;
 use sim::scene::Scene;
 pub use view::{Camera, Fit, Projection, View};

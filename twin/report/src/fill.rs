@@ -4,7 +4,7 @@ use sim::cell::Job;
 use sim::finding as found;
 use sim::interval::Interval;
 use sim::kinematics;
-use sim::motion::{Printing, StrandMotion};
+use sim::motion::{Printing, Spot, StrandMotion};
 use sim::pose::Vector;
 use sim::preflight::{Preflight, StrandResult};
 use sim::{growth, process};
@@ -12,6 +12,7 @@ use sim::{growth, process};
 use crate::parts::{
     Assumption, Finding, Phase, Provenance, Report, Scores, Severity, Site, Timing, Totals, Verdict,
 };
+use crate::program;
 use crate::results::{
     self, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand,
 };
@@ -146,7 +147,41 @@ impl Fill<'_> {
             stiffness_fraction: range(outcome.stiffness_fraction),
             free_strain: range(outcome.free_strain),
             laws: outcome.laws.iter().map(|&law| law.to_owned()).collect(),
-            motion: self.preflight.strand_motion.get(*strand).copied().flatten().map(strand_motion),
+            motion: self
+                .preflight
+                .strand_motion
+                .get(*strand)
+                .copied()
+                .flatten()
+                .map(|motion| self.strand_motion(motion)),
+            tcp_speed: program::tcp_speed(&self.preflight.program, *strand),
+            error_budget: program::budget(&self.preflight.program, *strand),
+        }
+    }
+
+    fn strand_motion(&self, motion: StrandMotion) -> results::StrandMotion {
+        let chain = &self.job.cell.robot.arm.chain;
+        let joint = |spot: Spot| spot.axis.map(|axis| chain.axis_name(axis).to_owned());
+        results::StrandMotion {
+            joint_speed_share: number(motion.joint_speed_share),
+            joint_margin_rad: number(motion.joint_margin_rad),
+            condition_number: number(motion.condition_number),
+            deviation_m: number(motion.deviation_m),
+            deviation_linear_m: number(motion.deviation_linear_m),
+            deviation_joint_m: number(motion.deviation_joint_m),
+            wrist_rad: motion.wrist_rad.and_then(number),
+            elbow_rad: motion.elbow_rad.and_then(number),
+            shoulder_m: motion.shoulder_m.and_then(number),
+            worst_at: results::WorstAt {
+                joint_speed_m: motion.joint_speed_at.at_m,
+                joint_speed: joint(motion.joint_speed_at),
+                joint_margin_m: motion.joint_margin_at.at_m,
+                joint_margin: joint(motion.joint_margin_at),
+                condition_m: motion.condition_at.at_m,
+                wrist_m: motion.wrist_at.at_m,
+                elbow_m: motion.elbow_at.at_m,
+                shoulder_m: motion.shoulder_at.at_m,
+            },
         }
     }
 
@@ -182,13 +217,23 @@ impl Fill<'_> {
             total_s: number(self.preflight.motion.total_s),
             smallest_clearance: nearest.map(|nearest| Nearest {
                 clearance_m: number(nearest.clearance_m),
+                resolution_m: number(nearest.resolution_m),
+                accuracy_m: number(nearest.accuracy_m),
                 bodies: nearest.bodies.clone(),
+                phase: phase(nearest.phase),
+                strand: nearest.strand.map(|strand| self.id(strand)),
+                at_m: number(nearest.at_m),
+                point_m: [nearest.point.x, nearest.point.y, nearest.point.z].map(number),
                 time_s: number(nearest.time_s),
             }),
             ik_coverage: match self.job.cell.robot.arm.coverage() {
                 kinematics::Coverage::Complete => Coverage::Complete,
                 kinematics::Coverage::Sampled => Coverage::Sampled,
             },
+            cycle: program::cycle(&self.preflight.program),
+            payload: program::payload(&self.preflight.program),
+            hoses: program::hoses(self.job, &self.preflight.program),
+            tracking: program::tracking(&self.preflight.program),
         }
     }
 }
@@ -216,15 +261,6 @@ fn totals(totals: &sim::preflight::Totals) -> Totals {
 
 fn assumption(assumption: &sim::preflight::Assumption) -> Assumption {
     Assumption { about: assumption.about.to_owned(), text: assumption.text.clone() }
-}
-
-fn strand_motion(motion: StrandMotion) -> results::StrandMotion {
-    results::StrandMotion {
-        joint_speed_share: number(motion.joint_speed_share),
-        joint_margin_rad: number(motion.joint_margin_rad),
-        condition_number: number(motion.condition_number),
-        deviation_m: number(motion.deviation_m),
-    }
 }
 
 fn phase(phase: found::Phase) -> Phase {

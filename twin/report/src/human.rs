@@ -189,7 +189,13 @@ fn frame(report: &Report, screen: &mut Screen) {
         let [a, b] = &nearest.bodies;
         let value = Unit::Millimetre.show(nearest.clearance_m);
         let at = clock(nearest.time_s);
-        screen.line(&format!("clearance  {value} at the least, {a} to {b} at {at}"));
+        let open = Unit::Millimetre.show(nearest.resolution_m);
+        let accuracy = Unit::Millimetre.show(nearest.accuracy_m);
+        screen.line(&format!(
+            "clearance  {value} at the least, {a} to {b} at {at}; covered to {open}, arm ± {accuracy}"
+        ));
+    } else {
+        screen.line("clearance  nothing comes within twice the limit of anything");
     }
 }
 

@@ -8,6 +8,7 @@
 mod fill;
 mod human;
 mod parts;
+mod program;
 mod quantity;
 mod results;
 #[cfg(test)]
@@ -23,8 +24,9 @@ pub use parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
     Timing, Totals, Verdict,
 };
+pub use program::{Budget, Cycle, Hose, Payload, Share, TcpSpeed, Tracking};
 pub use results::{
-    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion,
+    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion, WorstAt,
 };
 
 /// Value of `schema` in every report this version writes.

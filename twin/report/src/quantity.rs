@@ -14,6 +14,10 @@ pub(crate) enum Unit {
     Degree,
     /// Given as a share.
     Percent,
+    /// Given in kg.
+    Kilogram,
+    /// Given in s.
+    Second,
     /// A ratio.
     Plain,
 }
@@ -22,9 +26,11 @@ impl Unit {
     /// What a finding of this code and SI unit is shown in.
     pub(crate) fn of(code: &str, si: &str) -> Self {
         match (code, si) {
-            ("R105", _) => Self::Percent,
+            ("R105" | "R106" | "R108" | "E502", _) => Self::Percent,
             (_, "m") => Self::Millimetre,
             (_, "rad") => Self::Degree,
+            (_, "kg") => Self::Kilogram,
+            (_, "s") => Self::Second,
             _ => Self::Plain,
         }
     }
@@ -34,7 +40,7 @@ impl Unit {
             Self::Millimetre => 1e3,
             Self::Degree => 180.0 / std::f64::consts::PI,
             Self::Percent => 1e2,
-            Self::Plain => 1.0,
+            Self::Kilogram | Self::Second | Self::Plain => 1.0,
         }
     }
 
@@ -43,6 +49,8 @@ impl Unit {
             Self::Millimetre => " mm",
             Self::Degree => "°",
             Self::Percent => " %",
+            Self::Kilogram => " kg",
+            Self::Second => " s",
             Self::Plain => "",
         }
     }

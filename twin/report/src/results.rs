@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::parts::Phase;
+use crate::program::{Budget, Cycle, Hose, Payload, TcpSpeed, Tracking};
+
 /// A number that is not known exactly; null where it is not finite (never sets, sags without end).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -67,6 +70,10 @@ pub struct Strand {
     pub laws: Vec<String>,
     /// What the arm does along it; null: nothing of it is reached.
     pub motion: Option<StrandMotion>,
+    /// True speed of the TCP along it; null: nothing of it is reached.
+    pub tcp_speed: Option<TcpSpeed>,
+    /// What errors of calibration do to where it lies.
+    pub error_budget: Option<Budget>,
 }
 
 /// What holds a strand.
@@ -82,7 +89,7 @@ pub enum Ends {
 }
 
 /// What the arm does along a strand, at its worst.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StrandMotion {
     /// Largest share of a joint's speed limit at the asked print speed.
@@ -91,8 +98,42 @@ pub struct StrandMotion {
     pub joint_margin_rad: Option<f64>,
     /// Largest condition number, length scale 1 m; null: singular.
     pub condition_number: Option<f64>,
-    /// Largest distance of the TCP from the strand, m.
+    /// Largest distance of the TCP from the strand as the job moves it, m.
     pub deviation_m: Option<f64>,
+    /// The same if the controller moves in lines, m.
+    pub deviation_linear_m: Option<f64>,
+    /// The same if the joints turn evenly between points, m.
+    pub deviation_joint_m: Option<f64>,
+    /// Least angle of the wrist from its singularity, rad; null: no such wrist.
+    pub wrist_rad: Option<f64>,
+    /// Least angle of the elbow from straight or folded, rad; null: no such elbow.
+    pub elbow_rad: Option<f64>,
+    /// Least distance of the wrist's centre from axis 1, m; null: not of a known type.
+    pub shoulder_m: Option<f64>,
+    /// Where along the strand each of these is worst.
+    pub worst_at: WorstAt,
+}
+
+/// Arc lengths at which a strand's motion is worst, m, and the joints concerned.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorstAt {
+    /// Of the joint speed.
+    pub joint_speed_m: f64,
+    /// The joint that is fastest for what it can.
+    pub joint_speed: Option<String>,
+    /// Of the margin to a stop.
+    pub joint_margin_m: f64,
+    /// The joint that is nearest to its stop.
+    pub joint_margin: Option<String>,
+    /// Of the condition number.
+    pub condition_m: f64,
+    /// Of the wrist.
+    pub wrist_m: f64,
+    /// Of the elbow.
+    pub elbow_m: f64,
+    /// Of the shoulder.
+    pub shoulder_m: f64,
 }
 
 /// The frame at one moment.
@@ -149,6 +190,14 @@ pub struct Motion {
     pub smallest_clearance: Option<Nearest>,
     /// Whether every posture was looked at or a search's.
     pub ik_coverage: Coverage,
+    /// Where the time goes.
+    pub cycle: Cycle,
+    /// What hangs on the flange; null: its mass is not known.
+    pub payload: Option<Payload>,
+    /// Use of every hose of the cell.
+    pub hoses: Vec<Hose>,
+    /// How the drives follow the hardest stop of the program, by simulation; null: no masses known.
+    pub tracking: Option<Tracking>,
 }
 
 /// Two bodies at their nearest.
@@ -157,8 +206,20 @@ pub struct Motion {
 pub struct Nearest {
     /// Clearance, m; negative: overlap.
     pub clearance_m: Option<f64>,
+    /// No clearance of this pair on this motion is less than that by more than this, m.
+    pub resolution_m: Option<f64>,
+    /// Stated accuracy of the arm, m; comes on top.
+    pub accuracy_m: Option<f64>,
     /// The two bodies.
     pub bodies: [String; 2],
+    /// What the arm is doing.
+    pub phase: Phase,
+    /// The strand it belongs to; null: none.
+    pub strand: Option<String>,
+    /// Arc length on it, m.
+    pub at_m: Option<f64>,
+    /// The orifice then, m in part axes.
+    pub point_m: [Option<f64>; 3],
     /// When, s.
     pub time_s: Option<f64>,
 }

@@ -4,8 +4,9 @@ use crate::parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
     Timing, Totals, Verdict,
 };
+use crate::program::{Cycle, Payload, Share};
 use crate::results::{
-    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion,
+    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion, WorstAt,
 };
 
 fn range(nominal: f64, low: f64, high: f64) -> Range {
@@ -44,7 +45,24 @@ pub(crate) fn strand(id: &str, sag_m: f64) -> Strand {
             joint_margin_rad: Some(0.4),
             condition_number: Some(9.0),
             deviation_m: Some(0.0),
+            deviation_linear_m: Some(0.0),
+            deviation_joint_m: Some(2e-5),
+            wrist_rad: Some(0.6),
+            elbow_rad: Some(0.9),
+            shoulder_m: Some(0.5),
+            worst_at: WorstAt {
+                joint_speed_m: 0.01,
+                joint_speed: Some("joint_a6".to_owned()),
+                joint_margin_m: 0.0,
+                joint_margin: Some("joint_a5".to_owned()),
+                condition_m: 0.02,
+                wrist_m: 0.02,
+                elbow_m: 0.0,
+                shoulder_m: 0.0,
+            },
         }),
+        tcp_speed: None,
+        error_budget: None,
     }
 }
 
@@ -135,10 +153,30 @@ pub(crate) fn report() -> Report {
             total_s: Some(3723.4),
             smallest_clearance: Some(Nearest {
                 clearance_m: Some(0.00031),
+                resolution_m: Some(1e-4),
+                accuracy_m: Some(5e-4),
+                phase: Phase::Print,
+                strand: Some("s5".to_owned()),
+                at_m: Some(0.012),
+                point_m: [Some(0.01), Some(0.02), Some(0.03)],
                 bodies: ["nozzle".to_owned(), "s3".to_owned()],
                 time_s: Some(83.4),
             }),
             ik_coverage: Coverage::Complete,
+            cycle: Cycle {
+                print_s: Some(3000.0),
+                dwell_s: Some(400.0),
+                approach_s: Some(200.0),
+                transit_s: Some(123.4),
+                wait_s: Some(0.0),
+            },
+            payload: Some(Payload {
+                mass_kg: Some(0.9),
+                rated_kg: Some(6.0),
+                moments: vec![Share { joint: "joint_5".to_owned(), share: Some(0.2) }],
+            }),
+            hoses: Vec::new(),
+            tracking: None,
         },
         loads: vec![LoadCase {
             name: "seat".to_owned(),

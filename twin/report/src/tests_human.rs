@@ -30,7 +30,7 @@ fn the_whole_page() {
 
     frame      moves 0.12 mm by its weight, worst after 2 strands, staged 0.080 mm
     load       seat: bends 2.40 mm, first yield at 3.20 times the load
-    clearance  0.31 mm at the least, nozzle to s3 at 0:01:23
+    clearance  0.31 mm at the least, nozzle to s3 at 0:01:23; covered to 0.10 mm, arm ± 0.50 mm
     totals     0.12 m, 0.88 g
     time       1:02:03: print 0:50:00, dwell 0:02:00, transit 0:10:03
                1 assumption in report.json

@@ -11,7 +11,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector6;
-use sim::kinematics::{Arm, Chain, ChainJoint, IkOptions, JointKind, Numeric, Solver, recognise};
+use sim::kinematics::{
+    Arm, Chain, ChainJoint, IkOptions, JointKind, Numeric, Solver, condition_number, recognise,
+};
 use sim::pose::{Pose, from_xyz_rpy};
 
 type Row = ([f64; 3], [f64; 3], [f64; 3], f64, f64);
@@ -101,6 +103,9 @@ fn kinematics(criterion: &mut Criterion) {
                 let tip = |q: &Vec<f64>| chain.jacobian_into(q, &mut columns).translation.x;
                 postures.iter().map(tip).sum::<f64>()
             });
+        });
+        group.bench_function("condition number x1000", |bencher| {
+            bencher.iter(|| postures.iter().map(|q| condition_number(&chain, q)).sum::<f64>());
         });
         group.bench_function("inverse, all branches x1000", |bencher| {
             bencher.iter(|| inverse_all(&arm, &poses));

@@ -5,6 +5,7 @@
 use std::collections::BTreeMap;
 use std::fs::read_to_string;
 
+use slam::cell_file::CellFile;
 use slam::mesh::Mesh;
 use slam::{Diagnostic, Source};
 
@@ -35,6 +36,16 @@ pub(crate) fn job(text: &str) -> Job {
 /// The job of a text, or what `resolve` refuses; the text itself is sound.
 #[track_caller]
 pub(crate) fn try_job(text: &str, form_meshes: &[Mesh]) -> Result<Job, Vec<Diagnostic>> {
+    try_job_in(text, form_meshes, |_| {})
+}
+
+/// The same with the cell's file changed first.
+#[track_caller]
+pub(crate) fn try_job_in(
+    text: &str,
+    form_meshes: &[Mesh],
+    change: impl FnOnce(&mut CellFile),
+) -> Result<Job, Vec<Diagnostic>> {
     let (document, _) = slam::job::parse(&Source::new("job", text)).unwrap();
     let file = |path: String| {
         let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
@@ -42,7 +53,8 @@ pub(crate) fn try_job(text: &str, form_meshes: &[Mesh]) -> Result<Job, Vec<Diagn
         Source::new(path, text)
     };
     let cell_file = file(format!("robots/cells/{}.toml", document.cell.value));
-    let cell = slam::cell_file::parse(&cell_file).unwrap();
+    let mut cell = slam::cell_file::parse(&cell_file).unwrap();
+    change(&mut cell);
     let parts = Parts {
         robot: Some(
             &slam::robot_file::parse(&file(format!("robots/{}/robot.toml", cell.robot))).unwrap(),

@@ -8,8 +8,11 @@ use crate::tool_file::ShapeFile;
 use crate::{Diagnostic, Source};
 
 pub(crate) mod checks;
+mod equipment;
 #[cfg(test)]
 mod tests;
+
+pub use equipment::{CalibrationFile, CarriedFile, ControllerFile, HoseFile, LinearMove};
 
 use checks::{Checks, Place, Rule, parse_checked};
 
@@ -52,6 +55,17 @@ pub struct CellFile {
     /// Bodies that stand around, in world axes.
     #[serde(default)]
     pub obstacle: Vec<ObstacleFile>,
+    /// Hoses and cables from the arm to what rides on the flange.
+    #[serde(default)]
+    pub hose: Vec<HoseFile>,
+    /// Bodies that ride on links of the arm.
+    #[serde(default)]
+    pub carried: Vec<CarriedFile>,
+    /// How the controller moves.
+    #[serde(default)]
+    pub controller: ControllerFile,
+    /// How well tool, bed and forms were measured; `None`: nobody said.
+    pub calibration: Option<CalibrationFile>,
     /// The extruder.
     pub extruder: ExtruderFile,
     /// Default limits.
@@ -96,6 +110,8 @@ pub struct BedFile {
     pub size_mm: [f64; 3],
     /// Hold of the deposit on the bed, MPa: nominal, low, high.
     pub adhesion_mpa: [f64; 3],
+    /// Mass of the bed and all that holds it on the flange, kg; asked for where it rides there.
+    pub mass_kg: Option<f64>,
 }
 
 /// A body that stands around.
@@ -155,6 +171,26 @@ pub struct LimitsFile {
     pub deflection_mm: f64,
     /// Share of a strand's radius left uncured that warns, and that stops.
     pub uncured_share: [f64; 2],
+    /// Largest difference of the TCP's speed from the asked one, percent.
+    #[serde(default = "ten_percent")]
+    pub speed_band_percent: f64,
+    /// Largest share of a joint's torque limit, percent.
+    #[serde(default = "all_of_it")]
+    pub torque_percent: f64,
+    /// Largest share of a joint's acceleration limit, percent.
+    #[serde(default = "all_of_it")]
+    pub acceleration_percent: f64,
+    /// Longest the program may take, s; not given: as long as it takes.
+    pub cycle_time_s: Option<f64>,
+}
+
+/// A tenth of the speed is a twentieth of the bead's diameter.
+fn ten_percent() -> f64 {
+    10.0
+}
+
+fn all_of_it() -> f64 {
+    100.0
 }
 
 /// Reads a cell; refuses missing and impossible values, each with its place.
@@ -174,6 +210,7 @@ pub fn parse(source: &Source) -> Result<CellFile, Vec<Diagnostic>> {
             pose(bed.get("pose"), checks);
             checks.numbers(bed.get("size_mm"), Rule::Positive);
             checks.interval(bed.get("adhesion_mpa"), Rule::NotNegative);
+            checks.number(bed.get("mass_kg"), Rule::Positive);
         }
         let obstacles = cell.get("obstacle").map(Place::items).unwrap_or_default();
         let names: Vec<_> = obstacles.iter().filter_map(|place| place.get("name")).collect();
@@ -182,6 +219,15 @@ pub fn parse(source: &Source) -> Result<CellFile, Vec<Diagnostic>> {
             checks::shapes::shape(obstacle.get("shape"), checks);
         }
         checks.distinct(&cell.get("io").map(Place::items).unwrap_or_default(), "outputs");
+        equipment::check(cell, checks);
+        let linear = cell.get("controller").and_then(|controller| controller.get("linear"));
+        if let Some(linear) = linear.filter(|linear| linear.text() == Some("set-tool"))
+            && cell.get("mode").is_some_and(|mode| mode.text() == Some("tool-on-flange"))
+        {
+            let says =
+                "`set-tool` moves a part under a fixed nozzle; here the tool is on the flange";
+            checks.error(linear, says.to_owned());
+        }
         extruder(cell.get("extruder"), checks);
         limits(cell.get("limits"), checks);
     })
@@ -240,7 +286,10 @@ fn limits(limits: Option<Place<'_>>, checks: &mut Checks) {
     let Some(limits) = limits else { return };
     for limit in limits.entries() {
         let rule = match limit.name() {
-            "joint_speed_percent" => Rule::AboveUpTo(0.0, 100.0),
+            "joint_speed_percent"
+            | "torque_percent"
+            | "acceleration_percent"
+            | "speed_band_percent" => Rule::AboveUpTo(0.0, 100.0),
             "wrist_deg" => Rule::Between(0.0, 90.0),
             _ => Rule::Positive,
         };

@@ -119,6 +119,8 @@ pub struct Orientation {
     pub tilt_from_deg: Option<Spanned<f64>>,
     /// Largest tilt, degrees.
     pub tilt_max_deg: Option<Spanned<f64>>,
+    /// How far the twin may lean the nozzle off the axis it follows, degrees.
+    pub tilt_free_deg: Option<Spanned<f64>>,
     /// Rotation about the nozzle's axis.
     pub spin: Option<Spanned<Spin>>,
 }
@@ -345,4 +347,8 @@ pub struct Limits {
     pub sag_mm: Option<Spanned<f64>>,
     /// Largest deflection of the finished part under its loads, mm.
     pub deflection_mm: Option<Spanned<f64>>,
+    /// Largest difference of the TCP's speed from the asked one, percent.
+    pub speed_band_percent: Option<Spanned<f64>>,
+    /// Longest the program may take, s.
+    pub cycle_time_s: Option<Spanned<f64>>,
 }

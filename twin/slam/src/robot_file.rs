@@ -24,6 +24,8 @@ pub struct RobotFile {
     pub link_shapes: LinkShapes,
     /// Rated payload at the flange, kg.
     pub payload_kg: Option<f64>,
+    /// Where the centre of the rated payload may sit, in axes of the tip link, mm.
+    pub payload_centre_mm: Option<[f64; 3]>,
     /// Repeatability as the maker states it, mm.
     pub repeatability_mm: Option<f64>,
     /// Absolute accuracy assumed for an arm that was not calibrated, mm.
@@ -74,6 +76,8 @@ pub struct JointFile {
     pub acceleration: Option<f64>,
     /// Largest torque, N m, where the URDF's `effort` is not it.
     pub torque_n_m: Option<f64>,
+    /// Inertia of rotor and gear seen at the joint, kg m² (kg where it slides).
+    pub rotor_inertia_kg_m2: Option<f64>,
     /// Maker's zero minus ours, degrees.
     #[serde(default)]
     pub maker_zero_deg: f64,
@@ -90,6 +94,13 @@ pub fn parse(source: &Source) -> Result<RobotFile, Vec<Diagnostic>> {
         for key in ["payload_kg", "repeatability_mm", "accuracy_mm"] {
             checks.number(robot.get(key), Rule::Positive);
         }
+        checks.numbers(robot.get("payload_centre_mm"), Rule::Finite);
+        if let (Some(centre), None) = (robot.get("payload_centre_mm"), robot.get("payload_kg")) {
+            checks.refuse(
+                Diagnostic::error(centre.span(), "a centre of the payload, but no payload")
+                    .hint("add a line `payload_kg = …`"),
+            );
+        }
         checks.number(robot.get("coupling_j2_j3"), Rule::FromTo(-1.0, 1.0));
         joints(robot, checks);
         let pairs = robot.get("touching_links").map(Place::items).unwrap_or_default();
@@ -104,6 +115,7 @@ fn joints(robot: Place<'_>, checks: &mut Checks) {
     for joint in joints.entries() {
         checks.number(joint.get("acceleration"), Rule::Positive);
         checks.number(joint.get("torque_n_m"), Rule::Positive);
+        checks.number(joint.get("rotor_inertia_kg_m2"), Rule::NotNegative);
         checks.number(joint.get("maker_zero_deg"), Rule::FromTo(-360.0, 360.0));
     }
     let said = robot.get("joints_source").and_then(Place::text);

@@ -20,6 +20,8 @@ pub struct ToolFile {
     pub orifice_diameter_mm: f64,
     /// Mass on the flange, kg.
     pub mass_kg: Option<f64>,
+    /// Its centre of mass in tool axes, mm.
+    pub centre_mm: Option<[f64; 3]>,
     /// The parts, each convex or split into convex ones.
     pub part: Vec<PartFile>,
     /// Air nozzles, if any.
@@ -133,6 +135,13 @@ pub fn parse(source: &Source) -> Result<ToolFile, Vec<Diagnostic>> {
         checks.text(tool.get("source"), "say where the dimensions come from, or \"ours\"");
         checks.number(tool.get("orifice_diameter_mm"), Rule::Positive);
         checks.number(tool.get("mass_kg"), Rule::Positive);
+        checks.numbers(tool.get("centre_mm"), Rule::Finite);
+        if let (Some(centre), None) = (tool.get("centre_mm"), tool.get("mass_kg")) {
+            checks.refuse(
+                Diagnostic::error(centre.span(), "a centre of mass, but no mass")
+                    .hint("add a line `mass_kg = …`"),
+            );
+        }
         parts(tool.get("part"), checks);
         if let Some(jet) = tool.get("air_jet") {
             checks.interval(jet.get("speed_m_s"), Rule::NotNegative);

@@ -1,9 +1,11 @@
 //! URDF: text to [`RobotDescription`]. Lengths in m, angles in rad, masses in kg, as URDF has it.
 //!
 //! `xml` finds the elements and their places, `check` refuses what urdf-rs would pass over in
-//! silence (it drops vector entries that are not numbers), urdf-rs reads, `tree` checks the whole.
+//! silence (it drops vector entries that are not numbers), `inertial` masses that no body has,
+//! urdf-rs reads, `tree` checks the whole.
 
 mod check;
+mod inertial;
 mod mesh_path;
 #[cfg(test)]
 mod tests;
@@ -169,6 +171,7 @@ fn read(source: &Source) -> Result<RobotDescription, Vec<Diagnostic>> {
         vec![Diagnostic::error(span, format!("not a URDF: {}", one_line(&error.to_string())))]
     })?;
     let robot = description(&robot);
+    problems.extend(inertial::check(&elements));
     problems.extend(tree::check(&robot, &elements));
     problems.sort_by_key(|problem| problem.span);
     if problems.is_empty() { Ok(robot) } else { Err(problems) }

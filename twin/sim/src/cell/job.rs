@@ -142,6 +142,8 @@ pub struct Orientation {
     pub tilt_from_rad: f64,
     /// Largest tilt, rad.
     pub tilt_max_rad: f64,
+    /// How far the nozzle may be leaned off the axis it follows, rad.
+    pub tilt_free_rad: f64,
     /// Rotation about its axis.
     pub spin: Spin,
 }
@@ -316,4 +318,12 @@ pub struct Limits {
     pub deflection_m: f64,
     /// Share of a strand's radius left uncured that warns, and that stops.
     pub uncured_share: [f64; 2],
+    /// Largest difference of the TCP's speed from the asked one, as a share of it.
+    pub speed_band: f64,
+    /// Largest share of a joint's torque limit.
+    pub torque_share: f64,
+    /// Largest share of a joint's acceleration limit.
+    pub acceleration_share: f64,
+    /// Longest the program may take, s.
+    pub cycle_time_s: Option<f64>,
 }

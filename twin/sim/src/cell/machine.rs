@@ -1,11 +1,13 @@
 //! The cell: robot, tool, bed and what stands around.
 
+use crate::dynamics::{Body, Model};
 use crate::interval::Interval;
 use crate::kinematics::Arm;
 use crate::pose::{Pose, Vector};
 use crate::process::{Jet, LightRing};
 use crate::shape::Shape;
 
+use super::equipment::{Calibration, Controller, Hose};
 use super::job::Limits;
 
 /// A cell. World axes are those of the chain's base link.
@@ -25,6 +27,12 @@ pub struct Cell {
     pub bed: Bed,
     /// Bodies that stand around, world axes.
     pub obstacles: Vec<Obstacle>,
+    /// Hoses from the arm to what rides on the flange.
+    pub hoses: Vec<Hose>,
+    /// How the controller moves.
+    pub controller: Controller,
+    /// How well tool, bed and forms were measured.
+    pub calibration: Calibration,
     /// Posture between prints, rad or m, one per joint of the arm.
     pub home: Vec<f64>,
     /// Gravity in world axes, m/s².
@@ -54,6 +62,23 @@ impl Cell {
         }
     }
 
+    /// What rides on the flange before anything is printed, tip axes; `None` where its mass is
+    /// unknown.
+    pub fn flange_load(&self) -> Option<Body> {
+        match self.mode {
+            Mode::ToolOnFlange => Some(self.tool.body()?.seen_from(&self.tool_pose)),
+            Mode::BedOnFlange => Some(self.bed.body()?.seen_from(&self.bed.pose)),
+        }
+    }
+
+    /// The arm with its masses and the cell's gravity, nothing on its flange; `None` where the URDF
+    /// has no masses.
+    pub fn dynamics(&self) -> Option<Model> {
+        let masses = self.robot.masses.as_ref()?;
+        let bare = Model::new(&self.robot.arm.chain, masses, self.gravity_m_s2).ok()?;
+        Some(bare.with_rotors(&self.robot.rotors))
+    }
+
     /// Pose of the tip that brings the tool to `bed_from_tool`.
     pub fn world_from_tip(&self, bed_from_tool: &Pose) -> Pose {
         match self.mode {
@@ -79,12 +104,24 @@ pub struct Robot {
     pub name: String,
     /// The chain from base to tip and how it is solved.
     pub arm: Arm,
-    /// Every link of the URDF that has a shape, also those beside the chain.
+    /// Every link of the URDF that has a shape, also those beside the chain, and after them the
+    /// bodies the cell says ride on links.
     pub links: Vec<RobotLink>,
     /// Pairs of links (indices into `links`) that may touch: neighbours and stated pairs.
     pub touching: Vec<[usize; 2]>,
     /// Acceleration limits, rad/s² or m/s², where known.
     pub acceleration: Vec<Option<f64>>,
+    /// Torque limits, N m or N, where known.
+    pub torque: Vec<Option<f64>>,
+    /// Inertia of rotors and gears seen at the joints, kg m² or kg; zero where unknown.
+    pub rotors: Vec<f64>,
+    /// What every joint of the chain carries, in axes of its child link; `None`: the URDF has no
+    /// masses.
+    pub masses: Option<Vec<Body>>,
+    /// Rated payload, kg, where known.
+    pub payload_kg: Option<f64>,
+    /// Where the centre of the rated payload may sit, tip axes, m, where known.
+    pub payload_centre: Option<Vector>,
     /// Absolute accuracy of a pose, m.
     pub accuracy_m: f64,
     /// Whether the link shapes are drawn by us without a mesh behind them.
@@ -111,6 +148,10 @@ pub struct Tool {
     pub name: String,
     /// Diameter of the orifice, m.
     pub orifice_m: f64,
+    /// Mass, kg, where known.
+    pub mass_kg: Option<f64>,
+    /// Centre of mass in tool axes, m, where known.
+    pub centre: Option<Vector>,
     /// Named parts.
     pub parts: Vec<ToolPart>,
     /// Air nozzles.
@@ -137,6 +178,8 @@ pub struct Bed {
     pub pose: Pose,
     /// Width, depth, thickness, m.
     pub size_m: [f64; 3],
+    /// Mass with all that holds it on the flange, kg, where known.
+    pub mass_kg: Option<f64>,
     /// Hold of the deposit on it, Pa.
     pub adhesion_pa: Interval,
 }
@@ -146,6 +189,24 @@ impl Bed {
     pub fn shape(&self) -> Shape {
         let half_m = Vector::from(self.size_m) / 2.0;
         Shape::Box { pose: Pose::translation(0.0, 0.0, -half_m.z), half_m }
+    }
+}
+
+impl Tool {
+    /// The tool as a body in tool axes; `None` where its mass is unknown. Where only its centre is
+    /// unknown the origin stands for it: the orifice is as a rule farther from the flange than the
+    /// centre, so that moments come out too large rather than too small.
+    pub fn body(&self) -> Option<Body> {
+        Some(Body::point(self.mass_kg?, self.centre.unwrap_or_else(Vector::zeros)))
+    }
+}
+
+impl Bed {
+    /// The bed as a body in bed axes, a plate of its size; `None` where its mass is unknown.
+    pub fn body(&self) -> Option<Body> {
+        let size = Vector::from(self.size_m);
+        let centre = Pose::translation(0.0, 0.0, -size.z / 2.0);
+        Some(Body::cuboid(self.mass_kg?, size, &centre))
     }
 }
 

@@ -5,9 +5,12 @@ use slam::robot_file::LinkShapes;
 use slam::tool_file::{ShapeFile, ToolFile};
 use slam::urdf::{LinkDescription, ShapeDescription};
 
+use super::equipment::Hose;
+use super::equipment_from_files;
 use super::job::Limits;
 use super::machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
 use super::resolve::Parts;
+use crate::dynamics;
 use crate::interval::Interval;
 use crate::kinematics::{self, Chain, ChainJoint, JointKind};
 use crate::pose::{self, Point, Pose, Vector};
@@ -22,9 +25,9 @@ const ACCURACY_M: f64 = 0.5e-3;
 ///
 /// # Errors
 /// One sentence for the author of the cell.
-pub(super) fn cell(parts: &Parts<'_>) -> Result<Cell, String> {
+pub fn machine(parts: &Parts<'_>) -> Result<Cell, String> {
     let file = parts.cell;
-    let robot = robot(parts)?;
+    let (robot, hoses) = robot(parts)?;
     let joints: Vec<&ChainJoint> = free_joints(&robot.arm.chain);
     if file.home_deg.len() != joints.len() {
         let n_home = file.home_deg.len();
@@ -50,6 +53,7 @@ pub(super) fn cell(parts: &Parts<'_>) -> Result<Cell, String> {
         bed: Bed {
             pose: place(&file.bed.pose),
             size_m: file.bed.size_mm.map(|mm| mm / 1e3),
+            mass_kg: file.bed.mass_kg,
             adhesion_pa: triple(file.bed.adhesion_mpa).scaled(1e6),
         },
         obstacles: file
@@ -60,6 +64,9 @@ pub(super) fn cell(parts: &Parts<'_>) -> Result<Cell, String> {
                 shapes: shapes(&obstacle.shape),
             })
             .collect(),
+        hoses,
+        controller: equipment_from_files::controller(&file.controller),
+        calibration: equipment_from_files::calibration(file.calibration.as_ref()),
         home,
         gravity_m_s2: Vector::from(file.gravity_m_s2),
         extruder: extruder(file),
@@ -82,7 +89,8 @@ pub(super) fn joint_scale(joint: &ChainJoint) -> f64 {
     }
 }
 
-fn robot(parts: &Parts<'_>) -> Result<Robot, String> {
+/// The robot, and the hoses on its links.
+fn robot(parts: &Parts<'_>) -> Result<(Robot, Vec<Hose>), String> {
     let (file, urdf) = (parts.cell, parts.urdf);
     let held = held_values(parts)?;
     let held: Vec<(&str, f64)> = held.iter().map(|(name, value)| (name.as_str(), *value)).collect();
@@ -101,25 +109,39 @@ fn robot(parts: &Parts<'_>) -> Result<Robot, String> {
             });
         }
     }
+    let mut hosts: Vec<String> = links.iter().map(|link| link.name.clone()).collect();
+    hosts.extend(file.carried.iter().map(|body| body.link.clone()));
+    links.extend(equipment_from_files::carried(file, &tree.links)?);
     let stated = parts.robot.map_or(&[][..], |robot| robot.touching_links.as_slice());
-    let acceleration = |joint: &ChainJoint| {
-        parts
-            .robot
-            .and_then(|robot| robot.joints.get(&joint.name))
-            .and_then(|joint| joint.acceleration)
-    };
-    Ok(Robot {
+    let noted = |joint: &ChainJoint| parts.robot.and_then(|robot| robot.joints.get(&joint.name));
+    let acceleration = |joint: &ChainJoint| noted(joint).and_then(|noted| noted.acceleration);
+    let torque =
+        |joint: &ChainJoint| noted(joint).and_then(|noted| noted.torque_n_m).or(joint.effort);
+    let hoses = equipment_from_files::hoses(file, &tree.links)?;
+    let robot = Robot {
         name: parts.robot.map_or_else(|| urdf.name.clone(), |robot| robot.name.clone()),
-        touching: touching(&links, urdf, stated),
+        touching: touching(&links, &hosts, urdf, stated),
         links,
         acceleration: free_joints(&tree.chain).into_iter().map(acceleration).collect(),
+        torque: free_joints(&tree.chain).into_iter().map(torque).collect(),
+        rotors: free_joints(&tree.chain)
+            .into_iter()
+            .map(|joint| noted(joint).and_then(|noted| noted.rotor_inertia_kg_m2).unwrap_or(0.0))
+            .collect(),
+        masses: dynamics::bodies_from_urdf(urdf, &tree).ok(),
+        payload_kg: parts.robot.and_then(|robot| robot.payload_kg),
+        payload_centre: parts
+            .robot
+            .and_then(|robot| robot.payload_centre_mm)
+            .map(|mm| Vector::from(mm) / 1e3),
         arm: kinematics::recognise(&tree.chain).map_err(|fault| fault.to_string())?,
         accuracy_m: parts
             .robot
             .and_then(|robot| robot.accuracy_mm)
             .map_or(ACCURACY_M, |accuracy_mm| accuracy_mm / 1e3),
         shapes_assumed: parts.robot.is_some_and(|robot| robot.link_shapes == LinkShapes::Assumed),
-    })
+    };
+    Ok((robot, hoses))
 }
 
 fn held_values(parts: &Parts<'_>) -> Result<Vec<(String, f64)>, String> {
@@ -134,22 +156,27 @@ fn held_values(parts: &Parts<'_>) -> Result<Vec<(String, f64)>, String> {
 }
 
 /// Pairs of links that may touch: parent and child, links joined through shapeless ones, links
-/// of one rigid body, and the stated pairs.
+/// of one rigid body, and the stated pairs. A carried body touches what its link (in `hosts`, which
+/// has the link itself for a link) may touch.
 fn touching(
     links: &[RobotLink],
+    hosts: &[String],
     urdf: &slam::urdf::RobotDescription,
     stated: &[[String; 2]],
 ) -> Vec<[usize; 2]> {
     let parent_of = |name: &str| {
         urdf.joints.iter().find(|joint| joint.child == name).map(|joint| &joint.parent)
     };
-    let index = |name: &str| links.iter().position(|link| link.name == name);
+    let bodies_of =
+        |name: &str| -> Vec<usize> { (0..links.len()).filter(|&j| hosts[j] == name).collect() };
+    // Carried bodies ride on links with and without a shape; the walk ends at a shape.
+    let has_shape = |name: &str| links.iter().any(|link| link.name == name);
     let mut pairs = Vec::new();
     for (i, link) in links.iter().enumerate() {
-        let mut parent = parent_of(&link.name);
+        let mut parent = parent_of(&hosts[i]);
         while let Some(name) = parent {
-            if let Some(j) = index(name) {
-                pairs.push([j.min(i), j.max(i)]);
+            pairs.extend(bodies_of(name).into_iter().map(|j| [j.min(i), j.max(i)]));
+            if has_shape(name) {
                 break;
             }
             parent = parent_of(name);
@@ -161,8 +188,8 @@ fn touching(
         }
     }
     for [a, b] in stated {
-        if let (Some(i), Some(j)) = (index(a), index(b)) {
-            pairs.push([i.min(j), i.max(j)]);
+        for i in bodies_of(a) {
+            pairs.extend(bodies_of(b).into_iter().map(|j| [i.min(j), i.max(j)]));
         }
     }
     pairs.sort_unstable();
@@ -212,6 +239,8 @@ fn tool(file: &ToolFile) -> Tool {
     Tool {
         name: file.name.clone(),
         orifice_m: file.orifice_diameter_mm / 1e3,
+        mass_kg: file.mass_kg,
+        centre: file.centre_mm.map(|mm| Vector::from(mm) / 1e3),
         parts: file
             .part
             .iter()
@@ -262,11 +291,15 @@ fn limits(file: &LimitsFile) -> Limits {
         set_distance_m: file.set_distance_mm / 1e3,
         deflection_m: file.deflection_mm / 1e3,
         uncured_share: file.uncured_share,
+        speed_band: file.speed_band_percent / 100.0,
+        torque_share: file.torque_percent / 100.0,
+        acceleration_share: file.acceleration_percent / 100.0,
+        cycle_time_s: file.cycle_time_s,
     }
 }
 
 /// The convex shapes of one shape in a file.
-fn shapes(file: &ShapeFile) -> Vec<Shape> {
+pub(super) fn shapes(file: &ShapeFile) -> Vec<Shape> {
     let point = |mm: &[f64; 3]| Point::from(mm.map(|value| value / 1e3));
     match file {
         ShapeFile::Cone { from_mm, to_mm, radius_from_mm, radius_to_mm } => vec![Shape::Cone {

@@ -47,7 +47,7 @@ pub struct Parts<'a> {
 /// # Errors
 /// All problems found, with places in the job's text.
 pub fn resolve(document: &Document, parts: &Parts<'_>) -> Result<Job, Vec<Diagnostic>> {
-    let cell = machine_from_files::cell(parts).map_err(|fault| {
+    let cell = machine_from_files::machine(parts).map_err(|fault| {
         let message = format!("cell `{}` cannot be used: {fault}", document.cell.value);
         let hint = "the cell, its robot and its tool must fit each other";
         vec![Diagnostic::error(document.cell.span, message).hint(hint)]
@@ -184,6 +184,7 @@ impl Resolver<'_> {
             tilt: own.tilt.or(common.tilt).map_or(Tilt::Cone, |tilt| tilt.value),
             tilt_from_rad: from_deg.to_radians(),
             tilt_max_rad: max_deg.to_radians(),
+            tilt_free_rad: pick(own.tilt_free_deg, common.tilt_free_deg, 0.0).to_radians(),
             spin: match own.spin.or(common.spin).map(|spin| spin.value) {
                 Some(doc::Spin::HeldDeg(deg)) => Spin::Held(deg.to_radians()),
                 Some(doc::Spin::Free) | None => Spin::Free,
@@ -376,6 +377,10 @@ impl Resolver<'_> {
             node_miss_m: pick(asked.node_miss_mm, default.node_miss_m),
             sag_m: pick(asked.sag_mm, default.sag_m),
             deflection_m: pick(asked.deflection_mm, default.deflection_m),
+            speed_band: asked
+                .speed_band_percent
+                .map_or(default.speed_band, |percent| percent.value / 100.0),
+            cycle_time_s: asked.cycle_time_s.map(|s| s.value).or(default.cycle_time_s),
             ..default.clone()
         }
     }

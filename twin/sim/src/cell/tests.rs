@@ -1,7 +1,10 @@
 use super::*;
+use slam::cell_file::{CalibrationFile, CarriedFile, CellFile, HoseFile};
+use slam::tool_file::ShapeFile;
+
 use crate::kinematics::JointKind;
 use crate::pose::{Point, Vector};
-use crate::test_job::{CELLS, job, strand, text, try_job};
+use crate::test_job::{CELLS, job, strand, text, try_job, try_job_in};
 
 const FLAT: [[f64; 3]; 2] = [[0.0, 0.0, 1.0], [30.0, 0.0, 1.0]];
 
@@ -141,4 +144,115 @@ fn every_cell_of_the_library_stands_at_home_within_limits() {
         let revolute = chain.joints().iter().any(|joint| joint.kind == JointKind::Revolute);
         assert_eq!(revolute, name != "printer-3axis");
     }
+}
+
+/// Masses go with the arms that publish them; the others say so.
+#[test]
+fn a_cell_knows_what_its_arm_weighs_and_carries() {
+    let cell = |name: &str| job(&text(name, "", &strand("a", &FLAT, ""))).cell;
+    let kr6 = cell("kr6-2-hot-end");
+    let moving_kg: f64 = kr6.robot.masses.as_ref().unwrap().iter().map(|body| body.mass_kg).sum();
+    assert!((moving_kg - 38.243_552_62).abs() < 1e-9, "{moving_kg}");
+    assert_eq!(kr6.robot.torque[5], Some(23.2939212));
+    assert_eq!((kr6.robot.payload_kg, kr6.robot.payload_centre), (Some(6.0), None));
+    let tool = kr6.tool.body().unwrap();
+    assert_eq!((tool.mass_kg, tool.centre.z), (0.9, -0.09));
+    // 140 mm from flange to orifice, the centre 90 mm back from there, in line with the flange.
+    assert!((kr6.flange_load().unwrap().centre - Vector::new(0.0, 0.0, 0.05)).norm() < 1e-12);
+    let held = kr6.dynamics().unwrap().holding_torques(&kr6.home);
+    assert!(held.iter().zip(&kr6.robot.torque).all(|(held, limit)| held.abs() < limit.unwrap()));
+    assert!(cell("kr10-cone").robot.masses.is_none() && cell("kr10-cone").dynamics().is_none());
+    let bed = cell("kirkman-sda10d").bed.body().unwrap();
+    assert_eq!((bed.mass_kg, bed.centre.z), (1.0, -0.005));
+}
+
+/// A job in the cell of the KR 6 with its file changed.
+fn in_cell(change: impl FnOnce(&mut CellFile)) -> Result<Job, String> {
+    let problems = |problems: Vec<slam::Diagnostic>| problems[0].message.clone();
+    try_job_in(&text("kr6-hot-end", "", &strand("a", &FLAT, "")), &[], change).map_err(problems)
+}
+
+fn feeder(name: &str, link: &str) -> CarriedFile {
+    let shape = ShapeFile::Box { size_mm: [80.0; 3], xyz_mm: [0.0, 0.0, 150.0], rpy_deg: [0.0; 3] };
+    CarriedFile { name: name.to_owned(), link: link.to_owned(), shape }
+}
+
+fn hose(link: &str) -> HoseFile {
+    HoseFile {
+        name: "guide".to_owned(),
+        link: link.to_owned(),
+        at_mm: [0.0, 0.0, 150.0],
+        tool_at_mm: [0.0, 25.0, -100.0],
+        length_mm: 800.0,
+        radius_mm: 4.0,
+        twist_deg: None,
+    }
+}
+
+/// A body on a link rides with it and is measured against what the link is measured against.
+#[test]
+fn carried_bodies_are_links_of_the_arm() {
+    let plain = in_cell(|_| {}).expect("the cell of the library").cell.robot;
+    let place = |name: &str| plain.links.iter().position(|link| link.name == name);
+    for host in ["base_link", "link_1", "link_2", "link_3", "link_4", "flange"] {
+        let carry = |cell: &mut CellFile| cell.carried = vec![feeder("feeder", host)];
+        let robot = in_cell(carry).expect(host).cell.robot;
+        let feeder = plain.links.len();
+        assert_eq!(robot.links.len(), feeder + 1);
+        assert_eq!(robot.links[feeder].name, "feeder");
+        let of_links = |pair: &&[usize; 2]| pair[1] < feeder;
+        let pairs: Vec<_> = robot.touching.iter().filter(of_links).copied().collect();
+        assert_eq!(pairs, plain.touching, "{host}: other pairs stay");
+        let neighbours = |robot: &Robot, k: usize| -> Vec<String> {
+            let others = robot.touching.iter().filter(|pair| pair.contains(&k));
+            let other = |pair: &[usize; 2]| pair[0] + pair[1] - k;
+            let mut names: Vec<String> =
+                others.map(|pair| robot.links[other(pair)].name.clone()).collect();
+            names.sort();
+            names
+        };
+        let Some(at) = place(host) else {
+            assert_eq!(neighbours(&robot, feeder), ["link_6"], "{host} has no shape");
+            continue;
+        };
+        assert_eq!(robot.links[feeder].carrier, robot.links[at].carrier);
+        let mut wanted = neighbours(&plain, at);
+        wanted.push(host.to_owned());
+        wanted.sort();
+        assert_eq!(neighbours(&robot, feeder), wanted, "{host}");
+    }
+    let unknown = in_cell(|cell| cell.carried = vec![feeder("feeder", "link_9")]);
+    let message = unknown.expect_err("no such link");
+    assert!(message.contains("lacks") && message.contains("link_6"), "{message}");
+    let named = in_cell(|cell| cell.carried = vec![feeder("link_2", "link_3")]);
+    assert!(named.expect_err("two of a name").contains("name of a link"));
+}
+
+#[test]
+fn hoses_controller_and_calibration_are_in_si() {
+    let job = in_cell(|cell| {
+        cell.hose = vec![hose("link_3")];
+        cell.controller.acceleration_mm_s2 = 2000.0;
+        cell.controller.jerk_mm_s3 = None;
+        cell.controller.blend_mm = 0.5;
+        cell.controller.joint_move_percent = 40.0;
+        cell.calibration = Some(CalibrationFile { base_deg: 0.3, ..CalibrationFile::default() });
+        cell.limits.torque_percent = 80.0;
+    });
+    let cell = job.expect("a cell with a hose").cell;
+    let link = cell.robot.links.iter().find(|link| link.name == "link_3").expect("link_3");
+    let hose = &cell.hoses[0];
+    assert_eq!((hose.carrier, hose.length_m), (link.carrier, 0.8));
+    assert!((hose.twist_rad - 0.8 * std::f64::consts::PI).abs() < 1e-12, "180° per metre");
+    assert!((hose.to - Point::new(0.0, 0.025, -0.1)).norm() < 1e-12);
+    let controller = cell.controller;
+    assert_eq!((controller.acceleration_m_s2, controller.blend_m), (2.0, 0.5e-3));
+    assert!((controller.jerk_m_s3 - 80.0).abs() < 1e-9 && controller.joint_move_share == 0.4);
+    let calibration = cell.calibration;
+    assert!(calibration.stated && (calibration.tool.offset_m - 1e-4).abs() < 1e-18);
+    assert!((calibration.base.turn_rad - 0.3_f64.to_radians()).abs() < 1e-15);
+    assert_eq!(cell.limits.torque_share, 0.8);
+    assert!(!in_cell(|_| {}).expect("a plain cell").cell.calibration.stated);
+    let message = in_cell(|cell| cell.hose = vec![self::hose("elbow")]).expect_err("no such link");
+    assert!(message.contains("hose `guide` is fixed to link `elbow`"), "{message}");
 }

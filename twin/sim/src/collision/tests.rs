@@ -4,7 +4,7 @@ use super::*;
 use crate::clearance::Bodies;
 use crate::deposit::Printed;
 use crate::parry::{ROUNDING_M, SLACK};
-use crate::pose::{self, Vector};
+use crate::pose::{self, Pose, Vector};
 use crate::test_job::{job, strand, text};
 use crate::{motion, toolpath};
 
@@ -139,6 +139,183 @@ fn a_strand_alone_is_clear() {
     assert!(found.is_empty(), "{found:?}");
 }
 
+/// The second strand crosses the first at another height: half the radius decides.
+#[test]
+fn a_bead_laid_through_an_earlier_one_is_found_by_its_depth() {
+    for (over_mm, is_found) in
+        [(0.0, true), (0.45, true), (0.55, false), (2.0, false), (6.0, false)]
+    {
+        let a = strand("a", &[[-40.0, 0.0, 1.0], [40.0, 0.0, 1.0]], ", \"on\": \"bed\"");
+        let b = strand("b", &[[0.0, -30.0, 1.0 + over_mm], [0.0, 30.0, 1.0 + over_mm]], "");
+        let found = looked_at(&[a.as_str(), b.as_str()].join(","), true);
+        let told = found.iter().find(|finding| finding.code == Code::C208);
+        assert_eq!(told.is_some(), is_found, "{over_mm} mm: {found:?}");
+        let Some(told) = told else { continue };
+        assert!((told.measured.nominal - (1.0 - over_mm)).abs() < 1e-9);
+        assert!((told.site.at_m.expect("a place") - 0.03).abs() < 1e-9);
+        assert_eq!((told.site.strand, told.site.bodies[1].as_str()), (Some(1), "a"));
+    }
+}
+
+/// Where a strand ends on another they are joined; a ring may end where it began, a figure of
+/// eight may not cross itself.
+#[test]
+fn ends_may_be_joined_and_a_strand_may_not_cross_itself() {
+    let a = strand("a", &[[-40.0, 0.0, 1.0], [40.0, 0.0, 1.0]], ", \"on\": \"bed\"");
+    let on_it = strand("b", &[[0.0, 0.0, 1.0], [0.0, 30.0, 1.0]], ", \"on\": \"bed\"");
+    let ring =
+        [[0.0, 0.0, 1.0], [40.0, 0.0, 1.0], [40.0, 40.0, 1.0], [0.0, 40.0, 1.0], [0.0, 0.0, 1.0]];
+    let ring = strand("ring", &ring, ", \"on\": \"bed\"");
+    let eight = [[0.0, 0.0, 1.0], [40.0, 40.0, 1.0], [40.0, 0.0, 1.0], [0.0, 40.0, 1.0]];
+    let eight = strand("eight", &eight, ", \"on\": \"bed\"");
+    for (strands, n) in [([a.as_str(), on_it.as_str()].join(","), 0), (ring, 0), (eight, 1)] {
+        let found = looked_at(&strands, true);
+        let told = found.iter().filter(|finding| finding.code == Code::C208);
+        assert_eq!(told.count(), n, "{strands}: {found:?}");
+    }
+}
+
+/// An upright strand that the nozzle passes between two moments of its motion: at the moments there is
+/// nothing within the horizon.
+#[test]
+fn what_lies_between_two_moments_is_found() {
+    let held = format!(r#""process": {{ "orientation": {{ "spin": {FACE_DEG} }} }},"#);
+    let [length, wide, narrow] = CONE_MM;
+    let cos = length / length.hypot(wide - narrow);
+    // The top of the post is half a millimetre off the cone, 20 mm over its orifice.
+    let y = narrow + (wide - narrow) / length * 20.0 + (0.5 + 1.0) / cos;
+    let (a, b) = ([[0.0, y, 1.0], [0.0, y, 21.0]], [[-60.0, 0.0, 1.0], [60.0, 0.0, 1.0]]);
+    let strands = [strand("post", &a, ""), strand("pass", &b, "")].join(",");
+    let job = job(&text("kr10-cone", &held, &strands));
+    let mut motion = motion::plan(&job, &toolpath::paths(&job));
+    let deposit = deposit(&job, &motion);
+    let pass = |leg: &&mut motion::Leg| leg.phase == Phase::Print && leg.strand == Some(1);
+    let leg = motion.legs.iter_mut().find(pass).expect("the pass");
+    leg.moments.retain(|moment| (moment.at_m - 0.06).abs() > 10e-3);
+    let mut findings = Findings::default();
+    let nearest = check(&job, &motion, &deposit, &[], &mut findings).expect("a clearance");
+    let found = findings.sorted();
+    let of_post = |f: &&crate::finding::Finding| {
+        f.site.bodies == ["nozzle", "post"] && f.site.phase == Some(Phase::Print)
+    };
+    let told = found.iter().find(of_post).expect("half a millimetre");
+    // Joints that turn evenly over 24 mm leave the line by a tenth or two.
+    assert!((told.measured.nominal - 0.5e-3).abs() < 0.25e-3, "{told:?}");
+    let at_m = told.site.at_m.expect("a place");
+    assert!((at_m - 0.06).abs() < 2e-3, "{at_m}");
+    let gap_m = told.measured.nominal - told.measured.low - nearest.accuracy_m;
+    assert!(gap_m > 0.0 && gap_m < 0.5e-3, "resolution and bow {gap_m}");
+}
+
+/// A form is there until it is released, and not after.
+#[test]
+fn a_released_form_is_no_longer_there() {
+    let corner = |k: usize, bit: usize| if k & bit == 0 { -1.0 } else { 1.0 };
+    let vertices = (0..8)
+        .map(|k| [corner(k, 1) * 20.0, corner(k, 2) * 20.0, 15.0 + corner(k, 4) * 10.0])
+        .collect();
+    let triangles = vec![
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    let block = slam::mesh::Mesh { vertices, triangles };
+    let a = strand("a", &[[-15.0, 0.0, 26.0], [15.0, 0.0, 26.0]], ", \"on\": \"block\"");
+    let b = strand("b", &[[-15.0, 60.0, 1.0], [-15.0, -60.0, 1.0]], ", \"on\": \"bed\"");
+    for (sequence, in_the_way) in
+        [(r#""a", "b""#, true), (r#""a", { "release": "block" }, "b""#, false)]
+    {
+        let more = format!(
+            r#""forms": [{{ "id": "block", "mesh": "block.stl" }}], "sequence": [{sequence}],"#
+        );
+        let text = text("kr10-cone", &more, &[a.as_str(), b.as_str()].join(","));
+        let job =
+            crate::test_job::try_job(&text, std::slice::from_ref(&block)).expect("a sound job");
+        let motion = motion::plan(&job, &toolpath::paths(&job));
+        let mut findings = Findings::default();
+        check(&job, &motion, &deposit(&job, &motion), &[], &mut findings);
+        let found = findings.sorted();
+        let hits = |phase: Phase| {
+            found.iter().any(|f| {
+                f.site.bodies == ["nozzle", "block"]
+                    && f.site.phase == Some(phase)
+                    && f.site.strand == Some(1)
+            })
+        };
+        assert_eq!(hits(Phase::Print), in_the_way, "{found:?}");
+    }
+}
+
+/// One thread and two: the same findings to the last bit.
+#[test]
+fn the_number_of_threads_does_not_matter() {
+    let strands: Vec<String> = (0..6)
+        .map(|k| {
+            let y = 12.0 * f64::from(k);
+            strand(
+                &format!("s{k}"),
+                &[[-30.0, y, 1.0], [30.0, y - 20.0, 1.0 + 4.0 * f64::from(k)]],
+                "",
+            )
+        })
+        .collect();
+    let with = |n_threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build();
+        pool.expect("threads").install(|| format!("{:?}", looked_at(&strands.join(","), true)))
+    };
+    let one = with(1);
+    assert!(one.len() > 2, "something is found");
+    assert_eq!(one, with(2));
+}
+
+/// How long the bunny takes; printed, with `TWIN_SLOW=1`.
+#[test]
+fn the_bunny_is_judged_in_seconds() {
+    if std::env::var("TWIN_SLOW").is_err() {
+        println!("skipped without TWIN_SLOW=1");
+        return;
+    }
+    let path = format!("{}/../../scenarios/bunny-wireframe/job.slam", env!("CARGO_MANIFEST_DIR"));
+    let job = job(&std::fs::read_to_string(path).expect("the scenario"));
+    let motion = motion::plan(&job, &toolpath::paths(&job));
+    let deposit = deposit(&job, &motion);
+    let contacts = crate::deposit::contacts(&deposit);
+    let mut findings = Findings::default();
+    let start = std::time::Instant::now();
+    let nearest = check(&job, &motion, &deposit, &contacts, &mut findings);
+    let found = findings.sorted();
+    println!(
+        "bunny: {:.2} s, {} findings, {nearest:?}",
+        start.elapsed().as_secs_f64(),
+        found.len()
+    );
+    for code in [Code::C201, Code::C202, Code::C203, Code::C204, Code::C205, Code::C206, Code::C208]
+    {
+        let of = found.iter().filter(|finding| finding.code == code).count();
+        let low = found.iter().filter(|f| f.code == code).map(|f| f.measured.nominal);
+        println!(
+            "{code:?}: {of}, {:.3e} to {:.3e}",
+            low.clone().fold(f64::INFINITY, f64::min),
+            low.fold(f64::NEG_INFINITY, f64::max)
+        );
+        let widest = found
+            .iter()
+            .filter(|f| f.code == code)
+            .map(|f| f.measured.nominal - f.measured.low)
+            .fold(0.0, f64::max);
+        println!("   widest below nominal {widest:.3e}");
+    }
+}
+
 /// A nozzle that dips into the bed is found by how deep it is.
 #[test]
 fn the_nozzle_in_the_bed_is_found() {
@@ -155,16 +332,21 @@ fn the_nozzle_in_the_bed_is_found() {
 fn pieces_outside_one_zone_have_the_lengths_by_hand() {
     let whole = [Point::new(-5.0, 3.0, 0.0), Point::new(10.0, 3.0, 0.0)];
     let mut pieces = Vec::new();
-    let lengths = |pieces: &[zone::Piece]| -> Vec<f64> {
+    let lengths = |pieces: &[crate::clearance::Piece]| -> Vec<f64> {
         pieces.iter().map(|piece| (piece[1] - piece[0]).norm()).collect()
     };
-    zone::outside(whole, &[Point::origin()], 5.0, &mut pieces);
+    crate::clearance::outside(whole, &[Point::origin()], 5.0, &mut pieces);
     assert_eq!(lengths(&pieces), [1.0, 6.0]);
-    zone::outside(whole, &[Point::origin()], 2.9, &mut pieces);
+    crate::clearance::outside(whole, &[Point::origin()], 2.9, &mut pieces);
     assert_eq!(pieces, [whole]);
-    zone::outside(whole, &[Point::origin(), Point::new(7.0, 3.0, 0.0)], 5.0, &mut pieces);
+    crate::clearance::outside(
+        whole,
+        &[Point::origin(), Point::new(7.0, 3.0, 0.0)],
+        5.0,
+        &mut pieces,
+    );
     assert_eq!(lengths(&pieces), [1.0]);
-    zone::outside(whole, &[Point::new(2.5, 3.0, 0.0)], 8.0, &mut pieces);
+    crate::clearance::outside(whole, &[Point::new(2.5, 3.0, 0.0)], 8.0, &mut pieces);
     assert!(pieces.is_empty());
 }
 
@@ -223,7 +405,7 @@ proptest! {
         let whole = [Point::from(a), Point::from(b)];
         let centres: Vec<Point> = centres.into_iter().map(Point::from).collect();
         let mut pieces = Vec::new();
-        zone::outside(whole, &centres, radius, &mut pieces);
+        crate::clearance::outside(whole, &centres, radius, &mut pieces);
         prop_assert!(pieces.len() <= centres.len() + 1);
         for k in 0..=200 {
             let place = whole[0] + (whole[1] - whole[0]) * (f64::from(k) / 200.0);

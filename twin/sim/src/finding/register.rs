@@ -63,13 +63,17 @@ pub enum Code {
     R103,
     R104,
     R105,
+    R106,
     R107,
+    R108,
     C201,
     C202,
     C203,
     C204,
     C205,
     C206,
+    C207,
+    C208,
     P301,
     P303,
     P304,
@@ -78,23 +82,31 @@ pub enum Code {
     S401,
     S402,
     S406,
+    E501,
+    E502,
+    E504,
+    E508,
 }
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 28] = [
         Self::R101,
         Self::R102,
         Self::R103,
         Self::R104,
         Self::R105,
+        Self::R106,
         Self::R107,
+        Self::R108,
         Self::C201,
         Self::C202,
         Self::C203,
         Self::C204,
         Self::C205,
         Self::C206,
+        Self::C207,
+        Self::C208,
         Self::P301,
         Self::P303,
         Self::P304,
@@ -103,6 +115,10 @@ impl Code {
         Self::S401,
         Self::S402,
         Self::S406,
+        Self::E501,
+        Self::E502,
+        Self::E504,
+        Self::E508,
     ];
 
     /// The code as users write it.
@@ -113,13 +129,17 @@ impl Code {
             Self::R103 => "R103",
             Self::R104 => "R104",
             Self::R105 => "R105",
+            Self::R106 => "R106",
             Self::R107 => "R107",
+            Self::R108 => "R108",
             Self::C201 => "C201",
             Self::C202 => "C202",
             Self::C203 => "C203",
             Self::C204 => "C204",
             Self::C205 => "C205",
             Self::C206 => "C206",
+            Self::C207 => "C207",
+            Self::C208 => "C208",
             Self::P301 => "P301",
             Self::P303 => "P303",
             Self::P304 => "P304",
@@ -128,6 +148,10 @@ impl Code {
             Self::S401 => "S401",
             Self::S402 => "S402",
             Self::S406 => "S406",
+            Self::E501 => "E501",
+            Self::E502 => "E502",
+            Self::E504 => "E504",
+            Self::E508 => "E508",
         }
     }
 
@@ -153,13 +177,17 @@ impl Code {
             Self::R103 => "too near a singularity",
             Self::R104 => "branch flip inside a strand",
             Self::R105 => "joint too slow for the print speed",
+            Self::R106 => "drive too weak for the motion",
             Self::R107 => "TCP leaves the strand",
+            Self::R108 => "TCP faster or slower than asked",
             Self::C201 => "nozzle too near printed strands",
             Self::C202 => "tool too near printed strands",
             Self::C203 => "arm too near printed strands",
             Self::C204 => "nozzle too near the strand in progress",
             Self::C205 => "tool, arm or bed too near bed, form or fixtures",
             Self::C206 => "arm or tool too near the arm itself",
+            Self::C207 => "no collision-free transit found",
+            Self::C208 => "bead laid through an earlier one",
             Self::P301 => "strand sags behind the nozzle",
             Self::P303 => "set strand sags under its own weight",
             Self::P304 => "shrinkage moves the free end",
@@ -168,13 +196,17 @@ impl Code {
             Self::S401 => "node is not where the nozzle expects it",
             Self::S402 => "strand printed on nothing",
             Self::S406 => "finished part gives way under its loads",
+            Self::E501 => "too much on the flange",
+            Self::E502 => "hose pulled or twisted too far",
+            Self::E504 => "program takes too long",
+            Self::E508 => "calibration leaves too much doubt",
         }
     }
 
     /// Which side of the limit is good.
     pub fn bound(self) -> Bound {
         match self {
-            Self::R101 | Self::R104 | Self::S402 => Bound::Forbidden,
+            Self::R101 | Self::R104 | Self::C207 | Self::S402 => Bound::Forbidden,
             Self::R102
             | Self::C201
             | Self::C202
@@ -189,8 +221,19 @@ impl Code {
     /// Unit of measured value and limit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::R101 | Self::R104 | Self::S402 | Self::R103 | Self::R105 => "1",
+            Self::R101
+            | Self::R103
+            | Self::R104
+            | Self::R105
+            | Self::R106
+            | Self::R108
+            | Self::C207
+            | Self::S402
+            | Self::C208
+            | Self::E502 => "1",
             Self::R102 => "rad",
+            Self::E501 => "kg",
+            Self::E504 => "s",
             _ => "m",
         }
     }

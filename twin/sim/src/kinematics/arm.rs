@@ -3,11 +3,12 @@
 use super::branch::Branch;
 use super::cartesian::Cartesian;
 use super::chain::{Chain, is_finite};
+use super::gate::Gate;
 use super::numeric::Numeric;
 use super::opw::Opw;
 use super::parallel::Parallel;
-use super::polish::{POSITION_TOLERANCE_M, ROTATION_TOLERANCE_RAD, polish, pose_error};
-use super::posture::{Posture, wraps};
+use super::planar::Play;
+use super::posture::Posture;
 use super::srs::Srs;
 use crate::pose::Pose;
 
@@ -53,10 +54,12 @@ pub struct Solution {
     pub q: Posture,
     /// Which posture it is.
     pub branch: Branch,
-    /// Distance of the tip from the target by forward kinematics, at most 1e-9 m.
+    /// The tip is no further from the target than this, at most 1e-9 m. Measured by forward kinematics:
+    /// of the chain, or where the closed form is the chain to rounding (and leaves less than 1e-12), of
+    /// the closed form, with the greatest difference there can be between the two added.
     pub position_error_m: f64,
-    /// Angle between tip and target by forward kinematics; at most 1e-9 rad, but for a
-    /// [`Solver::Cartesian`], which cannot turn: there it says whether the orientation fits.
+    /// The tip is turned against the target by no more than this, measured likewise; at most 1e-9 rad,
+    /// but for a [`Solver::Cartesian`], which cannot turn: there it says whether the orientation fits.
     pub rotation_error_rad: f64,
 }
 
@@ -64,16 +67,13 @@ pub struct Solution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coverage {
     /// All branches (of seven-joint arms: at the elbow angle asked for), all full-turn copies within
-    /// limits. At a singular pose one posture stands for the endless ones of its branch.
+    /// limits. At a singular pose one posture stands for the endless ones of its branch. An arm whose
+    /// URDF rounds its angles is solved by polishing a closed form: it may miss a posture where two
+    /// singularities meet (condition number above 1e7).
     Complete,
     /// What a search found.
     Sampled,
 }
-
-/// Two solutions nearer than this in every joint are one, rad or m.
-const SAME: f64 = 1e-7;
-/// The same for searched solutions, which stop at different errors.
-const SAME_SEARCHED: f64 = 1e-6;
 
 impl Arm {
     /// All postures within limits that put the tip on `target` (tip in base), into `out`, which is
@@ -83,20 +83,40 @@ impl Arm {
         if !is_finite(target) {
             return self.coverage();
         }
-        let mut keep = |q, branch| self.keep(target, options, q, branch, out);
-        match &self.solver {
-            Solver::Opw(arm) => arm.candidates(target, options.seed, &mut keep),
-            Solver::Parallel(arm) => arm.candidates(target, options.seed, &mut keep),
-            Solver::Srs(arm) => {
-                arm.candidates(target, options.elbow_rad, options.seed, &mut keep);
-            }
-            Solver::Cartesian(printer) => printer.candidates(target, &mut keep),
-            Solver::Numeric(search) => {
-                let branch = Branch::default();
-                search.candidates(&self.chain, target, options.seed, &mut |q| keep(q, branch));
-            }
+        let exact = match &self.solver {
+            Solver::Opw(arm) => arm.exact(),
+            Solver::Parallel(arm) => arm.exact(),
+            Solver::Srs(arm) => arm.exact(),
+            Solver::Cartesian(_) | Solver::Numeric(_) => false,
+        };
+        let play = if exact { Play::EXACT } else { Play::ROUNDED };
+        // What a search finds may always be one of those it found before.
+        let close = matches!(self.solver, Solver::Numeric(_));
+        let mut gate = Gate { chain: &self.chain, target, options, exact, play, close, out };
+        self.candidates(&mut gate);
+        if gate.close && !exact && !close {
+            gate.play = Play::SPREAD;
+            self.candidates(&mut gate);
+            // Polishing may have taken a candidate across to the root next to it.
+            out.iter_mut().for_each(|found| found.branch = self.branch(&found.q));
         }
         self.coverage()
+    }
+
+    /// The same arm whose turning joints have no stops: tells out of reach from past a stop.
+    #[must_use]
+    pub fn without_limits(&self) -> Self {
+        Self { chain: self.chain.without_stops(), solver: self.solver.clone() }
+    }
+
+    fn candidates(&self, gate: &mut Gate) {
+        match &self.solver {
+            Solver::Opw(arm) => arm.candidates(gate),
+            Solver::Parallel(arm) => arm.candidates(gate),
+            Solver::Srs(arm) => arm.candidates(gate),
+            Solver::Cartesian(printer) => gate.keep_place(printer.solve(gate.target)),
+            Solver::Numeric(search) => search.candidates(gate),
+        }
     }
 
     /// Whether this arm's solutions are all there are.
@@ -123,34 +143,5 @@ impl Arm {
             Solver::Srs(arm) => Some(arm.elbow_angle(q)),
             _ => None,
         }
-    }
-
-    /// Checks a candidate, and adds it and its full-turn copies.
-    fn keep(
-        &self,
-        target: &Pose,
-        options: &IkOptions,
-        mut q: Posture,
-        branch: Branch,
-        out: &mut Vec<Solution>,
-    ) {
-        let turns = !matches!(self.solver, Solver::Cartesian(_));
-        let (position_error_m, rotation_error_rad) = if turns {
-            polish(&self.chain, target, &mut q)
-        } else {
-            let (offset, rotation) = pose_error(&self.chain.forward(&q), target);
-            (offset.norm(), rotation.norm())
-        };
-        let rotation_fits = rotation_error_rad <= ROTATION_TOLERANCE_RAD;
-        if !(position_error_m <= POSITION_TOLERANCE_M && (rotation_fits || !turns)) {
-            return;
-        }
-        let searched = matches!(self.solver, Solver::Numeric(_));
-        let same = if searched { SAME_SEARCHED } else { SAME };
-        wraps(&self.chain, &q, options.seed, |q| {
-            if out.iter().all(|known| known.q.distance(&q) > same) {
-                out.push(Solution { q, branch, position_error_m, rotation_error_rad });
-            }
-        });
     }
 }

@@ -4,7 +4,6 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 
-use super::posture::Posture;
 use crate::pose::{Pose, Vector};
 
 /// How a joint value becomes a canonical angle: `theta = sign * q + zero_rad`.
@@ -33,15 +32,6 @@ impl JointMap {
         let wrapped = offset - TAU * ((offset - PI) / TAU).ceil();
         if wrapped <= -PI + 1e-9 { PI } else { wrapped }
     }
-}
-
-/// Joint vector of canonical angles.
-pub(super) fn to_q(maps: &[JointMap], theta: &[f64]) -> Posture {
-    let mut q = Posture::zeros(maps.len());
-    for ((value, map), angle) in q.iter_mut().zip(maps).zip(theta) {
-        *value = map.q(*angle);
-    }
-    q
 }
 
 /// Canonical angle of one joint of the seed; at joint zero where there is no seed.
@@ -76,9 +66,4 @@ pub(super) fn turn_y(angle: f64) -> Pose {
         Translation3::identity(),
         UnitQuaternion::from_axis_angle(&Vector::y_axis(), angle),
     )
-}
-
-/// Shift without rotation.
-pub(super) fn shift(x: f64, y: f64, z: f64) -> Pose {
-    Pose::translation(x, y, z)
 }

@@ -2,7 +2,6 @@
 
 use nalgebra::Matrix3;
 
-use super::branch::Branch;
 use super::chain::{Chain, JointKind};
 use super::posture::Posture;
 use crate::pose::{Pose, Vector};
@@ -31,8 +30,7 @@ impl Cartesian {
     }
 
     /// The one posture, limits aside, whose tip stands at the target's origin.
-    pub(super) fn candidates(&self, target: &Pose, each: &mut dyn FnMut(Posture, Branch)) {
-        let q = self.inverse * (target.translation.vector - self.origin);
-        each(Posture::new(q.as_slice()), Branch::default());
+    pub(super) fn solve(&self, target: &Pose) -> Posture {
+        Posture::new((self.inverse * (target.translation.vector - self.origin)).as_slice())
     }
 }

@@ -199,6 +199,16 @@ impl Chain {
         moved
     }
 
+    /// The same chain whose turning joints have no stops.
+    #[must_use]
+    pub fn without_stops(&self) -> Self {
+        let mut open = self.clone();
+        for axis in open.axes.iter_mut().filter(|axis| axis.periodic) {
+            (axis.lower, axis.upper) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        open
+    }
+
     /// Tip in base. Law: product of `parent_from_joint · motion(q)` along the chain; error of a few
     /// 1e-16 m per metre of arm. `q` has [`Chain::dof`] entries, rad or m.
     pub fn forward(&self, q: &[f64]) -> Pose {

@@ -5,26 +5,32 @@
 //! posture that puts the tip where it is asked. Angles in rad, lengths in m, Jacobian rows
 //! `vx vy vz wx wy wz` at the tip in base axes.
 
+mod angle;
 mod arm;
 mod branch;
 mod canonical;
 mod cartesian;
 mod chain;
+mod condition;
 mod from_urdf;
+mod gate;
 mod hold;
 mod jacobian;
 mod lines;
+mod mount;
 mod numeric;
 mod opw;
 mod parallel;
 mod planar;
 mod polish;
 mod posture;
+mod reach;
 mod recognise;
 mod singularity;
 mod srs;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod wrist;
 
 pub use arm::{Arm, Coverage, IkOptions, Solution, Solver};
@@ -37,7 +43,9 @@ pub use numeric::Numeric;
 pub use opw::{Opw, OpwParameters};
 pub use parallel::{Parallel, ParallelParameters};
 pub use polish::{POSITION_TOLERANCE_M, ROTATION_TOLERANCE_RAD, pose_error};
-pub use posture::{MAX_DOF, Posture, wraps};
+pub use posture::{MAX_DOF, Posture};
+pub use reach::{levers, ranges};
 pub use recognise::recognise;
 pub use singularity::{Nearness, condition_number, limit_margins, nearness};
 pub use srs::{Srs, SrsParameters};
+pub use turns::wraps;

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use nalgebra::Vector6;
 
 use super::chain::Chain;
+use super::gate::Gate;
 use super::polish::{damped_step, pose_error, twist};
 use super::posture::{MAX_DOF, Posture};
 use crate::pose::Pose;
@@ -30,13 +31,8 @@ const CONVERGED: f64 = 1e-11;
 
 impl Numeric {
     /// Postures, limits aside, that put the tip on `target`; the same one may come more than once.
-    pub(super) fn candidates(
-        &self,
-        chain: &Chain,
-        target: &Pose,
-        seed: Option<&[f64]>,
-        each: &mut dyn FnMut(Posture),
-    ) {
+    pub(super) fn candidates(&self, gate: &mut Gate) {
+        let (chain, target, seed) = (gate.chain, gate.target, gate.options.seed);
         let mut random = Xorshift::new(0x9e37_79b9_7f4a_7c15);
         for start in 0..self.starts {
             let begin = match (start, seed) {
@@ -45,7 +41,7 @@ impl Numeric {
                 _ => between(chain, || random.unit()),
             };
             if let Some(found) = self.descend(chain, target, begin) {
-                each(found);
+                gate.keep_searched(found);
             }
         }
     }

@@ -8,11 +8,14 @@
 
 use nalgebra::Matrix3;
 
+use super::angle::Angle;
 use super::branch::Branch;
-use super::canonical::{JointMap, axes_pose, seed_theta, shift, sign, to_q, turn_y, turn_z};
+use super::canonical::{JointMap, axes_pose, seed_theta, sign, turn_y, turn_z};
+use super::gate::{Gate, TipError};
 use super::lines::{Line, TOLERANCE};
-use super::planar::{swing, two_links};
-use super::posture::Posture;
+use super::mount::{About, Mount, Step, forward};
+use super::planar::{links_meet, swing, swings_meet, two_links};
+use super::turns::Turns;
 use super::wrist::zyz;
 use crate::pose::{Pose, Vector};
 
@@ -43,8 +46,11 @@ pub struct Opw {
     pub parameters: OpwParameters,
     /// Joint values to canonical angles.
     pub maps: [JointMap; 6],
-    base_from_canonical: Pose,
-    flange_from_tip: Pose,
+    mount: Mount,
+    /// [`OpwParameters::lead`].
+    lead: Angle,
+    /// [`OpwParameters::forearm`].
+    forearm: f64,
 }
 
 impl OpwParameters {
@@ -57,18 +63,15 @@ impl OpwParameters {
         self.a2.atan2(self.c3)
     }
 
-    fn forward(&self, theta: &[f64; 6]) -> Pose {
-        turn_z(theta[0])
-            * shift(self.a1, self.b, self.c1)
-            * turn_y(theta[1])
-            * shift(0.0, 0.0, self.c2)
-            * turn_y(theta[2])
-            * shift(self.a2, 0.0, 0.0)
-            * turn_z(theta[3])
-            * shift(0.0, 0.0, self.c3)
-            * turn_y(theta[4])
-            * shift(0.0, 0.0, self.c4)
-            * turn_z(theta[5])
+    fn steps(&self) -> [Step; 6] {
+        [
+            (About::Z, Vector::new(self.a1, self.b, self.c1)),
+            (About::Y, Vector::new(0.0, 0.0, self.c2)),
+            (About::Y, Vector::new(self.a2, 0.0, 0.0)),
+            (About::Z, Vector::new(0.0, 0.0, self.c3)),
+            (About::Y, Vector::new(0.0, 0.0, self.c4)),
+            (About::Z, Vector::zeros()),
+        ]
     }
 }
 
@@ -132,7 +135,7 @@ impl Opw {
             sign6,
         ];
         let mut theta = [0.0, theta2, theta23 - theta2, theta4, theta5, 0.0];
-        let mut tool = (base * p.forward(&theta)).inverse() * tip;
+        let mut tool = (base * forward(&p.steps(), &theta)).inverse() * tip;
         // A tip that is only turned about axis 6 is the flange itself.
         let turn = tool.rotation.to_rotation_matrix();
         if tool.translation.vector.norm() < TOLERANCE && turn[(2, 2)] > 1.0 - TOLERANCE * TOLERANCE
@@ -144,37 +147,79 @@ impl Opw {
         for (map, (sign, zero_rad)) in maps.iter_mut().zip(signs.into_iter().zip(theta)) {
             *map = JointMap { sign, zero_rad };
         }
-        Some(Self { parameters: p, maps, base_from_canonical: base, flange_from_tip: tool })
+        let mount = Mount::new((&base, &tool), &p.steps(), &maps, lines, tip);
+        Some(Self { parameters: p, maps, mount, lead: Angle::of(p.lead()), forearm: p.forearm() })
     }
 
-    /// Every posture, limits aside, that puts the tip on `target`.
-    pub(super) fn candidates(
-        &self,
-        target: &Pose,
-        seed: Option<&[f64]>,
-        each: &mut dyn FnMut(Posture, Branch),
-    ) {
-        let p = &self.parameters;
-        let flange = self.base_from_canonical.inv_mul(target) * self.flange_from_tip.inverse();
-        let rotation: Matrix3<f64> = flange.rotation.to_rotation_matrix().into_inner();
+    /// Whether the closed form is the chain to rounding.
+    pub(super) fn exact(&self) -> bool {
+        self.mount.exact()
+    }
+
+    /// Every posture that puts the tip on the target.
+    pub(super) fn candidates(&self, gate: &mut Gate) {
+        let (p, play) = (&self.parameters, gate.play);
+        let flange = self.mount.flange(gate.target);
+        let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = flange.translation.vector - rotation.column(2) * p.c4;
-        let free = |index| seed_theta(&self.maps, seed, index);
-        let Some(swings) = swing(centre.x, centre.y, p.b, free(0)) else { return };
+        let free = seed_theta(&self.maps, gate.options.seed, 0);
+        let Some(swings) = swing(centre.x, centre.y, p.b, free, play) else { return };
         for (behind, (theta1, forward)) in swings.into_iter().enumerate() {
-            let links = two_links(forward - p.a1, centre.z - p.c1, p.c2, p.forearm());
+            let Some(turns1) = gate.turns(0, &self.maps[0], theta1.rad) else { continue };
+            gate.close |= swings_meet(forward);
+            let links = two_links(forward - p.a1, centre.z - p.c1, p.c2, self.forearm, play);
+            let seen = theta1.unturn_z(&rotation);
             for (below, (theta2, bend)) in links.into_iter().flatten().enumerate() {
-                let theta3 = bend - p.lead();
-                let base = turn_z(theta1) * turn_y(theta2 + theta3);
-                let wrist = base.rotation.to_rotation_matrix().into_inner().tr_mul(&rotation);
-                for (flip, [theta4, theta5, theta6]) in zyz(&wrist, free(3)).into_iter().enumerate()
-                {
-                    let theta = [theta1, theta2, theta3, theta4, theta5, theta6];
-                    let branch =
-                        Branch { shoulder: behind == 1, elbow: below == 1, wrist: flip == 1 };
-                    each(to_q(&self.maps, &theta), branch);
-                }
+                gate.close |= links_meet(&bend);
+                let theta3 = bend.rad - self.lead.rad;
+                let Some(turns2) = gate.turns(1, &self.maps[1], theta2.rad) else { continue };
+                let Some(turns3) = gate.turns(2, &self.maps[2], theta3) else { continue };
+                let reached = self.wrist_centre(&theta1, &theta2, &bend);
+                let along4 = theta2.plus(&bend).plus(&self.lead.opposite());
+                let wrist = along4.unturn_y(&seen);
+                let branch = Branch { shoulder: behind == 1, elbow: below == 1, wrist: false };
+                self.turn_wrist(
+                    gate,
+                    [turns1, turns2, turns3],
+                    branch,
+                    &wrist,
+                    &(reached - centre),
+                );
             }
         }
+    }
+
+    /// The two flips of a wrist that is to turn by `wrist` and whose centre is `off` its place.
+    fn turn_wrist(
+        &self,
+        gate: &mut Gate,
+        [turns1, turns2, turns3]: [Turns; 3],
+        branch: Branch,
+        wrist: &Matrix3<f64>,
+        off: &Vector,
+    ) {
+        let turned = zyz(wrist, seed_theta(&self.maps, gate.options.seed, 3));
+        let rad = turned.error_rad + self.mount.misfit_rad;
+        let lever = self.parameters.c4.abs() + self.mount.tool_m;
+        let m = off.norm() + turned.error_rad * lever + self.mount.misfit_m;
+        for (flip, [theta4, theta5, theta6]) in turned.angles.into_iter().enumerate() {
+            let Some(turns4) = gate.turns(3, &self.maps[3], theta4) else { continue };
+            let Some(turns5) = gate.turns(4, &self.maps[4], theta5) else { continue };
+            let Some(turns6) = gate.turns(5, &self.maps[5], theta6) else { continue };
+            let turns = [turns1, turns2, turns3, turns4, turns5, turns6];
+            gate.keep(&turns, Branch { wrist: flip == 1, ..branch }, TipError { m, rad });
+        }
+    }
+
+    /// Wrist centre by the first three joints, in canonical axes; `bend` is that of the line elbow → wrist.
+    fn wrist_centre(&self, theta1: &Angle, theta2: &Angle, bend: &Angle) -> Vector {
+        let (p, fore) = (&self.parameters, theta2.plus(bend));
+        let forward = p.a1 + p.c2 * theta2.sin + self.forearm * fore.sin;
+        Vector::new(
+            theta1.cos * forward - theta1.sin * p.b,
+            theta1.sin * forward + theta1.cos * p.b,
+            p.c1 + p.c2 * theta2.cos + self.forearm * fore.cos,
+        )
     }
 
     fn thetas(&self, q: &[f64]) -> [f64; 6] {
@@ -185,7 +230,7 @@ impl Opw {
     fn forward_m(&self, theta: &[f64; 6]) -> f64 {
         let p = &self.parameters;
         let forearm = theta[1] + theta[2] + p.lead();
-        p.a1 + p.c2 * theta[1].sin() + p.forearm() * forearm.sin()
+        p.a1 + p.c2 * theta[1].sin() + self.forearm * forearm.sin()
     }
 
     /// Branch of a posture.

@@ -11,13 +11,25 @@ use std::f64::consts::FRAC_PI_2;
 use nalgebra::Matrix3;
 
 use super::branch::Branch;
-use super::canonical::{JointMap, axes_pose, seed_theta, shift, sign, to_q, turn_y, turn_z};
+use super::canonical::{JointMap, axes_pose, seed_theta, sign, turn_y};
+use super::gate::{Gate, TipError};
 use super::lines::{Line, TOLERANCE};
-use super::planar::{swing, two_links};
-use super::posture::Posture;
+use super::mount::{About, Mount, Step, forward};
+use super::planar::{links_meet, swing, swings_meet, two_links};
 use super::singularity::from_line;
-use super::wrist::zyz;
+use super::turns::Turns;
+use super::wrist::{Zyz, zyz};
 use crate::pose::{Pose, Vector};
+
+/// What is left once axes 1, 5 and 6 are set: meeting point of axes 5 and 6 in the plane of the arm, m,
+/// sum of the three angles in it, rad, and the errors so far, m and rad.
+struct Plane {
+    forward: f64,
+    z: f64,
+    sum: f64,
+    off: f64,
+    error_rad: f64,
+}
 
 /// Lengths of the canonical arm, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,22 +55,20 @@ pub struct Parallel {
     pub parameters: ParallelParameters,
     /// Joint values to canonical angles.
     pub maps: [JointMap; 6],
-    base_from_canonical: Pose,
-    flange_from_tip: Pose,
+    mount: Mount,
 }
 
 impl ParallelParameters {
-    fn forward(&self, theta: &[f64; 6]) -> Pose {
-        turn_z(theta[0])
-            * shift(self.a1, self.b, self.c1)
-            * turn_y(theta[1])
-            * shift(0.0, 0.0, self.c2)
-            * turn_y(theta[2])
-            * shift(0.0, 0.0, self.c3)
-            * turn_y(theta[3])
-            * turn_z(theta[4])
-            * shift(0.0, 0.0, self.c4)
-            * turn_y(theta[5])
+    fn steps(&self) -> [Step; 6] {
+        let along = |length: f64| Vector::new(0.0, 0.0, length);
+        [
+            (About::Z, Vector::new(self.a1, self.b, self.c1)),
+            (About::Y, along(self.c2)),
+            (About::Y, along(self.c3)),
+            (About::Y, Vector::zeros()),
+            (About::Z, along(self.c4)),
+            (About::Y, Vector::zeros()),
+        ]
     }
 }
 
@@ -104,42 +114,76 @@ impl Parallel {
         let signs =
             [1.0, 1.0, sign(&across, &l3.direction), sign(&across, &l4.direction), sign5, 1.0];
         let theta = [0.0, theta2, theta23 - theta2, theta234 - theta23, theta5, 0.0];
-        let tool = (base * p.forward(&theta)).inverse() * tip;
+        let tool = (base * forward(&p.steps(), &theta)).inverse() * tip;
         let mut maps = [JointMap { sign: 1.0, zero_rad: 0.0 }; 6];
         for (map, (sign, zero_rad)) in maps.iter_mut().zip(signs.into_iter().zip(theta)) {
             *map = JointMap { sign, zero_rad };
         }
-        Some(Self { parameters: p, maps, base_from_canonical: base, flange_from_tip: tool })
+        let mount = Mount::new((&base, &tool), &p.steps(), &maps, lines, tip);
+        Some(Self { parameters: p, maps, mount })
     }
 
-    /// Every posture, limits aside, that puts the tip on `target`.
-    pub(super) fn candidates(
+    /// Whether the closed form is the chain to rounding.
+    pub(super) fn exact(&self) -> bool {
+        self.mount.exact()
+    }
+
+    /// Every posture that puts the tip on the target.
+    pub(super) fn candidates(&self, gate: &mut Gate) {
+        let p = &self.parameters;
+        let hand = self.mount.flange(gate.target);
+        let rotation = hand.rotation.to_rotation_matrix().into_inner();
+        let at = hand.translation.vector;
+        let free = |index| seed_theta(&self.maps, gate.options.seed, index);
+        let (free1, free_sum) = (free(0), free(1) + free(2) + free(3));
+        let swings = swing(at.x, at.y, p.b, free1, gate.play);
+        for (behind, (theta1, forward)) in swings.into_iter().flatten().enumerate() {
+            let Some(turns1) = gate.turns(0, &self.maps[0], theta1.rad) else { continue };
+            gate.close |= swings_meet(forward);
+            let side = theta1.cos * at.y - theta1.sin * at.x - p.b;
+            let ahead = theta1.cos * at.x + theta1.sin * at.y - forward;
+            let off = side.hypot(ahead);
+            let turned = yzy(&theta1.unturn_z(&rotation), free_sum);
+            for (flip, [sum, theta5, theta6]) in turned.angles.into_iter().enumerate() {
+                let Some(turns5) = gate.turns(4, &self.maps[4], theta5) else { continue };
+                let Some(turns6) = gate.turns(5, &self.maps[5], theta6) else { continue };
+                let branch = Branch { shoulder: behind == 1, elbow: false, wrist: flip == 1 };
+                let plane = Plane { forward, z: at.z, sum, off, error_rad: turned.error_rad };
+                self.bend_elbow(gate, [turns1, turns5, turns6], branch, &plane);
+            }
+        }
+    }
+
+    /// The two elbows that bring the end of the forearm where hand and sum of angles ask for it.
+    fn bend_elbow(
         &self,
-        target: &Pose,
-        seed: Option<&[f64]>,
-        each: &mut dyn FnMut(Posture, Branch),
+        gate: &mut Gate,
+        [turns1, turns5, turns6]: [Turns; 3],
+        branch: Branch,
+        plane: &Plane,
     ) {
         let p = &self.parameters;
-        let hand = self.base_from_canonical.inv_mul(target) * self.flange_from_tip.inverse();
-        let at = hand.translation.vector;
-        let free = |index| seed_theta(&self.maps, seed, index);
-        let free_sum = free(1) + free(2) + free(3);
-        let Some(swings) = swing(at.x, at.y, p.b, free(0)) else { return };
-        for (behind, (theta1, forward)) in swings.into_iter().enumerate() {
-            let turned = (turn_z(-theta1) * hand).rotation.to_rotation_matrix().into_inner();
-            for (flip, [sum, theta5, theta6]) in yzy(&turned, free_sum).into_iter().enumerate() {
-                let (sin, cos) = sum.sin_cos();
-                let x = forward - p.a1 - p.c4 * sin;
-                let z = at.z - p.c1 - p.c4 * cos;
-                let links = two_links(x, z, p.c2, p.c3);
-                for (below, (theta2, theta3)) in links.into_iter().flatten().enumerate() {
-                    let theta4 = sum - theta2 - theta3;
-                    let theta = [theta1, theta2, theta3, theta4, theta5, theta6];
-                    let branch =
-                        Branch { shoulder: behind == 1, elbow: below == 1, wrist: flip == 1 };
-                    each(to_q(&self.maps, &theta), branch);
-                }
-            }
+        let (sin, cos) = plane.sum.sin_cos();
+        let (x, z) = (plane.forward - p.a1 - p.c4 * sin, plane.z - p.c1 - p.c4 * cos);
+        let links = two_links(x, z, p.c2, p.c3, gate.play);
+        for (below, (theta2, bend)) in links.into_iter().flatten().enumerate() {
+            gate.close |= links_meet(&bend);
+            let theta4 = plane.sum - theta2.rad - bend.rad;
+            let Some(turns2) = gate.turns(1, &self.maps[1], theta2.rad) else { continue };
+            let Some(turns3) = gate.turns(2, &self.maps[2], bend.rad) else { continue };
+            let Some(turns4) = gate.turns(3, &self.maps[3], theta4) else { continue };
+            let fore = theta2.plus(&bend);
+            let miss_x = p.c2 * theta2.sin + p.c3 * fore.sin - x;
+            let miss_z = p.c2 * theta2.cos + p.c3 * fore.cos - z;
+            let error = TipError {
+                m: plane.off
+                    + miss_x.hypot(miss_z)
+                    + plane.error_rad * self.mount.tool_m
+                    + self.mount.misfit_m,
+                rad: plane.error_rad + self.mount.misfit_rad,
+            };
+            let turns = [turns1, turns2, turns3, turns4, turns5, turns6];
+            gate.keep(&turns, Branch { elbow: below == 1, ..branch }, error);
         }
     }
 
@@ -172,11 +216,13 @@ impl Parallel {
     }
 }
 
-/// Both `[a, b, c]` with `Ry(a) Rz(b) Ry(c) = m`, by renaming the axes y, z, x to z, x, y and
+/// Solves `Ry(a) Rz(b) Ry(c) = m`, by renaming the axes y, z, x to z, x, y and
 /// `Rx(b) = Rz(−π/2) Ry(b) Rz(π/2)`.
-fn yzy(m: &Matrix3<f64>, free: f64) -> [[f64; 3]; 2] {
+fn yzy(m: &Matrix3<f64>, free: f64) -> Zyz {
     const OLD: [usize; 3] = [2, 0, 1];
     let renamed = Matrix3::from_fn(|row, column| m[(OLD[row], OLD[column])]);
     // The second of two turned solutions is the first with `a + π`: sign of `b` as in `zyz`.
-    zyz(&renamed, free - FRAC_PI_2).map(|[a, b, c]| [a + FRAC_PI_2, b, c - FRAC_PI_2])
+    let turned = zyz(&renamed, free - FRAC_PI_2);
+    let angles = turned.angles.map(|[a, b, c]| [a + FRAC_PI_2, b, c - FRAC_PI_2]);
+    Zyz { angles, ..turned }
 }

@@ -52,7 +52,10 @@ pub(super) fn damped_step(
 
 /// Newton steps at most; an exact URDF needs none, one that rounds its angles one or two, more only
 /// near a singular posture.
-const STEPS: usize = 12;
+const STEPS: usize = 40;
+
+/// An error this large, m and rad, after a step: it led away.
+const LOST: f64 = 1e-2;
 
 /// Takes Newton steps and keeps the best posture met; returns its position and rotation error, m
 /// and rad.
@@ -63,9 +66,12 @@ pub(super) fn polish(chain: &Chain, target: &Pose, q: &mut Posture) -> (f64, f64
     let mut at = *q;
     let mut error = pose_error(&chain.forward(&at), target);
     let mut best = error;
+    // A closed form that is this far off did not reach; a step would be a search.
+    if !(size(&error) < 1e-4) {
+        return (best.0.norm(), best.1.norm());
+    }
     for _ in 0..STEPS {
-        // A closed form that is this far off did not reach; a step would be a search.
-        if !(ROUNDING..1e-4).contains(&size(&error)) {
+        if !(ROUNDING..LOST).contains(&size(&error)) {
             break;
         }
         let mut columns = [Vector6::zeros(); MAX_DOF];

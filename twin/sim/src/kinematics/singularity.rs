@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{SMatrix, Vector6};
+use nalgebra::Vector6;
 
 use super::arm::{Arm, Solver};
 use super::chain::Chain;
+use super::condition::{condition, ratio};
 use super::posture::{MAX_DOF, Posture};
 
 /// Measures of one posture. `None` where the arm has no such singularity, or is of no known type.
@@ -61,24 +62,13 @@ pub fn nearness(arm: &Arm, q: &[f64]) -> Nearness {
 /// for a chain without joints.
 pub fn condition_number(chain: &Chain, q: &[f64]) -> f64 {
     let dof = chain.dof();
-    if dof == 0 {
-        return 1.0;
-    }
     if dof > MAX_DOF {
         let sigma = chain.jacobian(q).singular_values();
         return ratio(sigma.max(), sigma.min());
     }
     let mut columns = [Vector6::zeros(); MAX_DOF];
     chain.jacobian_into(q, &mut columns);
-    // Columns that are not there are zero and add singular values of zero, which are left out.
-    let mut sigma = SMatrix::<f64, 6, MAX_DOF>::from_columns(&columns).singular_values();
-    sigma.as_mut_slice().sort_by(|a, b| b.total_cmp(a));
-    ratio(sigma[0], sigma[dof.min(6) - 1])
-}
-
-fn ratio(greatest: f64, least: f64) -> f64 {
-    // Rounding leaves about 1e-16 of the greatest where the least is zero.
-    if least > 1e-14 * greatest { greatest / least } else { f64::INFINITY }
+    condition(&columns[..dof])
 }
 
 /// Distance of every joint from the nearer of its limits, rad or m; negative outside, ∞ without limits.

@@ -6,11 +6,13 @@
 
 use nalgebra::Matrix3;
 
+use super::angle::{half_turn, unit};
 use super::branch::Branch;
-use super::canonical::{JointMap, axes_pose, seed_theta, shift, sign, to_q, turn_y, turn_z};
+use super::canonical::{JointMap, axes_pose, seed_theta, sign, turn_y, turn_z};
+use super::gate::{Gate, TipError};
 use super::lines::{Line, TOLERANCE};
+use super::mount::{About, Mount, Step, forward};
 use super::planar::bend;
-use super::posture::Posture;
 use super::singularity::from_line;
 use super::wrist::zyz;
 use crate::pose::{Pose, Vector};
@@ -31,24 +33,24 @@ pub struct Srs {
     pub parameters: SrsParameters,
     /// Joint values to canonical angles.
     pub maps: [JointMap; 7],
-    base_from_canonical: Pose,
-    wrist_from_tip: Pose,
+    mount: Mount,
 }
 
-/// Triangle sides may miss by this much before a pose is called out of reach, m.
+/// Lengths below this have no direction, m.
 const SLACK_M: f64 = 1e-9;
 
 impl SrsParameters {
-    fn forward(&self, theta: &[f64; 7]) -> Pose {
-        turn_z(theta[0])
-            * turn_y(theta[1])
-            * turn_z(theta[2])
-            * shift(0.0, 0.0, self.upper)
-            * turn_y(theta[3])
-            * shift(0.0, 0.0, self.lower)
-            * turn_z(theta[4])
-            * turn_y(theta[5])
-            * turn_z(theta[6])
+    fn steps(&self) -> [Step; 7] {
+        let along = |length: f64| Vector::new(0.0, 0.0, length);
+        [
+            (About::Z, Vector::zeros()),
+            (About::Y, Vector::zeros()),
+            (About::Z, along(self.upper)),
+            (About::Y, along(self.lower)),
+            (About::Z, Vector::zeros()),
+            (About::Y, Vector::zeros()),
+            (About::Z, Vector::zeros()),
+        ]
     }
 }
 
@@ -85,47 +87,82 @@ impl Srs {
                 turned *= turn_z(theta[index - 1]).rotation;
             }
         }
-        let tool = (base * parameters.forward(&theta)).inverse() * tip;
+        let tool = (base * forward(&parameters.steps(), &theta)).inverse() * tip;
         let mut maps = [JointMap { sign: 1.0, zero_rad: 0.0 }; 7];
         for (map, (sign, zero_rad)) in maps.iter_mut().zip(signs.into_iter().zip(theta)) {
             *map = JointMap { sign, zero_rad };
         }
-        Some(Self { parameters, maps, base_from_canonical: base, wrist_from_tip: tool })
+        let mount = Mount::new((&base, &tool), &parameters.steps(), &maps, lines, tip);
+        Some(Self { parameters, maps, mount })
     }
 
-    /// Every posture, limits aside, that puts the tip on `target` with the elbow at `elbow_rad`.
-    pub(super) fn candidates(
-        &self,
-        target: &Pose,
-        elbow_rad: f64,
-        seed: Option<&[f64]>,
-        each: &mut dyn FnMut(Posture, Branch),
-    ) {
+    /// Whether the closed form is the chain to rounding.
+    pub(super) fn exact(&self) -> bool {
+        self.mount.exact()
+    }
+
+    /// Every posture that puts the tip on the target with the elbow at the angle asked for.
+    ///
+    /// The arm with its elbow bent the other way is the same with joints 3 and 5 half a turn further,
+    /// so shoulder and wrist are solved once.
+    pub(super) fn candidates(&self, gate: &mut Gate) {
         let SrsParameters { upper, lower } = self.parameters;
-        let wrist = self.base_from_canonical.inv_mul(target) * self.wrist_from_tip.inverse();
+        let play = gate.play;
+        let wrist = self.mount.flange(gate.target);
         let rotation = wrist.rotation.to_rotation_matrix().into_inner();
-        let reach = wrist.translation.vector.norm();
-        if !(reach <= upper + lower + SLACK_M && reach >= (upper - lower).abs() - SLACK_M) {
+        let at = wrist.translation.vector;
+        let reach = at.norm();
+        if !play.reaches(reach, upper, lower) {
             return;
         }
-        let (line, zero, side) = elbow_axes(&wrist.translation.vector);
-        let out = zero * elbow_rad.cos() + side * elbow_rad.sin();
-        let bend = bend(reach, upper, lower);
+        let (line, zero, side) = elbow_axes(&at);
+        let (sin, cos) = gate.options.elbow_rad.sin_cos();
+        let out = zero * cos + side * sin;
+        let bend = bend(reach, upper, lower, play);
         // Angle between upper arm and the line to the wrist, always within [0, π].
-        let lean = (lower * bend.sin()).atan2(upper + lower * bend.cos());
-        let along = line * lean.cos() + out * lean.sin();
-        let free = |index| seed_theta(&self.maps, seed, index);
+        let (sin, cos) = unit(lower * bend.sin, upper + lower * bend.cos);
+        let along = line * cos + out * sin;
+        let normal = out.cross(&line);
+        let arm = Matrix3::from_columns(&[normal.cross(&along), normal, along]);
+        let fore = bend.unturn_y(&arm.transpose());
+        let off = along * upper + fore.row(2).transpose() * lower - at;
+        let free = |index| seed_theta(&self.maps, gate.options.seed, index);
+        let shoulder = zyz(&arm, free(0));
+        let hand = zyz(&(fore * rotation), free(4));
+        let rad = shoulder.error_rad + hand.error_rad;
+        let error = TipError {
+            m: off.norm() + rad * (upper + lower + self.mount.tool_m) + self.mount.misfit_m,
+            rad: rad + self.mount.misfit_rad,
+        };
+        self.combine(gate, shoulder.angles, bend.rad, hand.angles, error);
+    }
+
+    /// Two shoulders, two elbows, two wrists.
+    fn combine(
+        &self,
+        gate: &mut Gate,
+        shoulder: [[f64; 3]; 2],
+        bend: f64,
+        hand: [[f64; 3]; 2],
+        error: TipError,
+    ) {
+        let three = |gate: &Gate, first: usize, [a, b, c]: [f64; 3]| {
+            let turns = |index: usize, theta| gate.turns(index, &self.maps[index], theta);
+            Some([turns(first, a)?, turns(first + 1, b)?, turns(first + 2, c)?])
+        };
         for (bent, theta4) in [bend, -bend].into_iter().enumerate() {
-            let normal = if bent == 0 { out.cross(&line) } else { line.cross(&out) };
-            let arm = Matrix3::from_columns(&[normal.cross(&along), normal, along]);
-            let fore = arm * turn_y(theta4).rotation.to_rotation_matrix().matrix();
-            let hand = fore.tr_mul(&rotation);
-            for (back, [theta1, theta2, theta3]) in zyz(&arm, free(0)).into_iter().enumerate() {
-                for (flip, [theta5, theta6, theta7]) in zyz(&hand, free(4)).into_iter().enumerate()
-                {
-                    let theta = [theta1, theta2, theta3, theta4, theta5, theta6, theta7];
+            let Some(turns4) = gate.turns(3, &self.maps[3], theta4) else { continue };
+            let turned = |angle: f64| if bent == 0 { angle } else { half_turn(angle) };
+            let wrists = hand.map(|[a, b, c]| three(gate, 4, [turned(a), b, c]));
+            for (back, [a, b, c]) in shoulder.into_iter().enumerate() {
+                let Some([turns1, turns2, turns3]) = three(gate, 0, [a, b, turned(c)]) else {
+                    continue;
+                };
+                for (flip, wrist) in wrists.iter().enumerate() {
+                    let Some([turns5, turns6, turns7]) = *wrist else { continue };
+                    let turns = [turns1, turns2, turns3, turns4, turns5, turns6, turns7];
                     let branch = Branch { shoulder: back == 1, elbow: bent == 1, wrist: flip == 1 };
-                    each(to_q(&self.maps, &theta), branch);
+                    gate.keep(&turns, branch, error);
                 }
             }
         }
@@ -167,8 +204,12 @@ impl Srs {
     /// rad, and the distance of the wrist from axis 1, m.
     pub(super) fn distances(&self, q: &[f64]) -> (f64, f64, f64, f64) {
         let theta = self.thetas(q);
-        let wrist = self.parameters.forward(&theta).translation.vector;
-        (from_line(theta[5]), from_line(theta[3]), from_line(theta[1]), wrist.x.hypot(wrist.y))
+        let SrsParameters { upper, lower } = self.parameters;
+        let [(s2, c2), (s3, c3), (s4, c4)] = [theta[1], theta[2], theta[3]].map(f64::sin_cos);
+        // Wrist in the axes that turn with joint 1.
+        let x = upper * s2 + lower * (c2 * c3 * s4 + s2 * c4);
+        let y = lower * s3 * s4;
+        (from_line(theta[5]), from_line(theta[3]), from_line(theta[1]), x.hypot(y))
     }
 }
 

@@ -14,6 +14,8 @@ mod degenerate;
 mod forward;
 mod inverse;
 mod measures;
+mod published;
+mod reach;
 mod recognition;
 mod tree;
 

@@ -1,24 +1,55 @@
-//! Two angles triples of a rotation about z, y, z.
-
-use std::f64::consts::PI;
+//! Two angle triples of a rotation about z, y, z.
 
 use nalgebra::Matrix3;
+
+use super::angle::{Angle, half_turn, unit};
 
 /// Below this sine the outer axes count as one line, rad; smaller than the tolerance on solutions.
 const ALIGNED_RAD: f64 = 5e-10;
 
-/// Both `[a, b, c]` with `Rz(a) Ry(b) Rz(c) = m`; `b ≥ 0` in the first, `b ≤ 0` in the second.
+/// A rotation as turns about z, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Zyz {
+    /// Both `[a, b, c]`; `b ≥ 0` in the first, `b ≤ 0` in the second.
+    pub(super) angles: [[f64; 3]; 2],
+    /// `Rz(a) Ry(b) Rz(c)` is turned by no more than this against the rotation asked for, rad.
+    pub(super) error_rad: f64,
+}
+
+/// Solves `Rz(a) Ry(b) Rz(c) = m`.
 ///
-/// Where `b` is 0 or π only `a ± c` is fixed: then `a = free` (and `free + π` in the second).
+/// Where `b` is 0 or π only `a ± c` is fixed: then `a = free` (and half a turn further in the second).
 /// `b` and `c` are taken from what `a` leaves over, so the product holds to rounding however
-/// near that is.
-pub(super) fn zyz(m: &Matrix3<f64>, free: f64) -> [[f64; 3]; 2] {
-    let aligned = m[(0, 2)].hypot(m[(1, 2)]) < ALIGNED_RAD;
-    let first = if aligned { free } else { m[(1, 2)].atan2(m[(0, 2)]) };
-    [first, first + PI].map(|a| {
-        let (sin, cos) = a.sin_cos();
-        let b = (cos * m[(0, 2)] + sin * m[(1, 2)]).atan2(m[(2, 2)]);
-        let c = (cos * m[(1, 0)] - sin * m[(0, 0)]).atan2(cos * m[(1, 1)] - sin * m[(0, 1)]);
-        [a, b, c]
-    })
+/// near that is. The error is the Frobenius norm of the difference of the two matrices, which is
+/// √2 times the angle between two near rotations; it also tells where `m` is no rotation.
+pub(super) fn zyz(m: &Matrix3<f64>, free: f64) -> Zyz {
+    let (x, y) = (m[(0, 2)], m[(1, 2)]);
+    let a = if x * x + y * y < ALIGNED_RAD * ALIGNED_RAD {
+        Angle::of(free)
+    } else {
+        Angle::towards(y, x)
+    };
+    // What is left is Ry(b) Rz(c) = [cb cc, −cb sc, sb; sc, cc, 0; −sb cc, sb sc, cb].
+    let rest = a.unturn_z(m);
+    let (b, c) = (rotated(rest[(0, 2)], rest[(2, 2)]), rotated(rest[(1, 0)], rest[(1, 1)]));
+    let (b_off, b) = b;
+    let (c_off, c) = c;
+    let squares = square(rest[(0, 0)] - b.cos * c.cos)
+        + square(rest[(0, 1)] + b.cos * c.sin)
+        + square(rest[(1, 2)])
+        + square(rest[(2, 0)] + b.sin * c.cos)
+        + square(rest[(2, 1)] - b.sin * c.sin);
+    let second = [half_turn(a.rad), -b.rad, half_turn(c.rad)];
+    Zyz { angles: [[a.rad, b.rad, c.rad], second], error_rad: squares.sqrt() + b_off + c_off }
+}
+
+/// The angle, and by how much its sine and cosine missed length one.
+fn rotated(sin: f64, cos: f64) -> (f64, Angle) {
+    let miss = (sin * sin + cos * cos - 1.0).abs();
+    let (unit_sin, unit_cos) = unit(sin, cos);
+    (miss, Angle { rad: sin.atan2(cos), sin: unit_sin, cos: unit_cos })
+}
+
+fn square(x: f64) -> f64 {
+    x * x
 }

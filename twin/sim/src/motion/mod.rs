@@ -3,27 +3,55 @@
 //! | phase | how the arm moves | speed |
 //! |---|---|---|
 //! | print | along the strand, posture from the ladder search | the asked TCP speed |
-//! | approach, retract | straight along the nozzle's axis | travel speed |
-//! | transit | lift over the deposit, straight in joint space in between | travel speed, joint limits |
+//! | approach, retract | straight along the nozzle's axis, or another way where that is not clear | travel speed |
+//! | transit | in joint space, clear of all that is there ([`transit`]) | travel speed, joint limits |
 //!
 //! A job that brings its own joint path is followed as given; nothing is replanned. Speeds are
 //! constant within a phase: ramps and blending are not modelled, and the report says so.
 
 mod between;
 mod check;
+mod climb;
 mod clock;
+mod cost;
+mod drives;
+mod given;
 mod ladder;
+mod map;
+mod measure;
+mod place;
+mod planned;
+mod refine;
+mod set_tool;
 mod strand;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_given;
+#[cfg(test)]
+mod tests_search;
+#[cfg(test)]
+mod tests_set_tool;
+#[cfg(test)]
+mod tests_speed;
+mod tilt;
+mod transit;
+mod true_speed;
+mod walk;
 
-pub use check::{StrandMotion, check};
+pub use check::check;
+pub use drives::{Load, Need};
+pub use map::{Across, MapOf, MapState, SpinMap, spin_map};
+pub use measure::{Spot, StrandMotion};
+pub use true_speed::{as_moved, orifice_speed};
 
 use crate::cell::{Job, Step};
+use crate::clearance::Bodies;
+use crate::deposit::Deposit;
 use crate::finding::Phase;
-use crate::kinematics::{Coverage, IkOptions, Posture, Solution};
+use crate::kinematics::{Arm, Coverage, IkOptions, Posture, Solution};
 use crate::pose::{self, Point, Pose, Vector};
-use crate::toolpath::Path;
+use crate::toolpath::{Path, Sample};
 
 /// One instant of the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,8 +99,23 @@ pub struct Motion {
     pub printings: Vec<Printing>,
     /// Releases of forms: form, number of strands printed before, time.
     pub releases: Vec<(usize, usize, f64)>,
+    /// What prints ask of the drives at the asked speed: the worst of each kind per strand.
+    pub needs: Vec<Need>,
+    /// True speed of the orifice after every sample of every strand, m/s; empty where nothing is
+    /// reached.
+    pub speeds_m_s: Vec<Vec<f64>>,
     /// Length of the program, s.
     pub total_s: f64,
+    /// Moves that no clear way was found for.
+    pub(crate) lost: Vec<Lost>,
+}
+
+/// A move that no clear way was found for, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Lost {
+    /// Index of its leg.
+    pub(crate) leg: usize,
+    pub(crate) reason: transit::Reason,
 }
 
 /// A stretch of motion that has no times yet.
@@ -103,8 +146,8 @@ enum Act {
 /// Plans the motion of a job along `paths` (one per strand of the job, in its order).
 pub fn plan(job: &Job, paths: &[Path]) -> Motion {
     let mut acts = along_strands(job, paths);
-    between::fill_transits(job, &mut acts);
-    clock::timed(job, paths, acts)
+    let lost = between::plan_moves(job, &planned::deposit(job), &mut acts);
+    Motion { lost, ..clock::timed(job, paths, acts) }
 }
 
 /// Strands whose ladders are made at once, in parallel.
@@ -118,6 +161,11 @@ fn along_strands(job: &Job, paths: &[Path]) -> Vec<Act> {
     let mut ladders = Vec::new();
     let mut at = Posture::new(&job.cell.home);
     let mut done = 0_usize;
+    let mut gone = Vec::new();
+    let searches = job.strands.iter().any(|strand| strand.joints.is_none());
+    let deposit = if searches { planned::deposit(job) } else { Deposit::new(Vec::new()) };
+    let bodies = Bodies::new(job);
+    let room = planned::Room::new(job, &bodies, &deposit);
     for step in &job.steps {
         match step {
             Step::Print(strand) => {
@@ -126,7 +174,13 @@ fn along_strands(job: &Job, paths: &[Path]) -> Vec<Act> {
                     let batch = &order[done..order.len().min(done + BATCH)];
                     ladders = ladder::rungs_of(job, paths, batch);
                 }
-                let postures = strand::postures(job, &paths[*strand], &ladders[done % BATCH], &at);
+                let (path, ladder) = (&paths[*strand], &ladders[done % BATCH]);
+                let postures = if job.strands[*strand].joints.is_some() {
+                    strand::postures(job, path, ladder, &at)
+                } else {
+                    let clear = room.along(done, &gone);
+                    strand::postures_clear(job, path, ladder, &at, Some(&|_, q| clear(q)))
+                };
                 let ways = around_print(job, &paths[*strand], postures, done);
                 at = ways.iter().filter_map(Way::last).next_back().unwrap_or(at);
                 acts.extend(ways.into_iter().map(Act::Go));
@@ -138,7 +192,10 @@ fn along_strands(job: &Job, paths: &[Path]) -> Vec<Act> {
                 acts.push(Act::Go(way));
             }
             Step::Wait(wait_s) => acts.push(Act::Wait(*wait_s)),
-            Step::Release(form) => acts.push(Act::Release(*form)),
+            Step::Release(form) => {
+                gone.push(*form);
+                acts.push(Act::Release(*form));
+            }
             Step::Checkpoint(_) => {}
         }
     }
@@ -155,6 +212,7 @@ fn around_print(job: &Job, path: &Path, postures: strand::Postures, printed: usi
         unreached: Vec::new(),
     };
     let ends = postures.ends();
+    let path = &postures.path;
     let stations = path.samples.iter().zip(&postures.q);
     let print = Way {
         unreached: postures.unreached.clone(),
@@ -171,7 +229,10 @@ fn around_print(job: &Job, path: &Path, postures: strand::Postures, printed: usi
     let straight = |sample: usize, length_m| {
         let q = postures.q[sample].expect("both ends are reached");
         let mut way = vec![q];
-        way.extend(between::straight(job, &path.samples[sample], &q, length_m));
+        // Where the arm really is: it may lean, or bring rows that are off the strand.
+        let (point, nozzle) = between::nozzle_at(job, &q);
+        let end = Sample { point, nozzle, ..path.samples[sample] };
+        way.extend(between::straight(job, &end, &q, length_m));
         way.into_iter().map(|q| Station { at_m: 0.0, q }).collect::<Vec<_>>()
     };
     let mut approach = straight(first, settings.approach_m);
@@ -213,8 +274,21 @@ fn solve(
     seed: Option<&[f64]>,
     out: &mut Vec<Solution>,
 ) -> Coverage {
+    solve_with(&job.cell.robot.arm, job, point, nozzle, [spin_rad, elbow_rad], seed, out)
+}
+
+/// The same for another arm in its place.
+fn solve_with(
+    arm: &Arm,
+    job: &Job,
+    point: Point,
+    nozzle: Vector,
+    [spin_rad, elbow_rad]: [f64; 2],
+    seed: Option<&[f64]>,
+    out: &mut Vec<Solution>,
+) -> Coverage {
     let target = job.cell.world_from_tip(&bed_from_tool(job, point, nozzle, spin_rad));
-    let coverage = job.cell.robot.arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
+    let coverage = arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
     // A machine that cannot turn answers for the place alone.
     out.retain(|solution| solution.rotation_error_rad <= ORIENTATION_RAD);
     coverage

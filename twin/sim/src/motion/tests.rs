@@ -1,32 +1,32 @@
 use super::*;
-use crate::cell::{Job, Mode};
+use crate::cell::{Job, LinearMove, Mode};
 use crate::finding::{Code, Findings};
 use crate::kinematics::Posture;
 use crate::test_job::{CELLS, job, strand, text};
-use crate::toolpath::{self, STEP_M};
+use crate::toolpath;
 
 /// Print speed in all tests, and a bead so that nothing depends on the cell's own.
-const PROCESS: &str = r#""process": { "speed_mm_s": 2, "flow": { "diameter_mm": 2 } },"#;
+pub(super) const PROCESS: &str = r#""process": { "speed_mm_s": 2, "flow": { "diameter_mm": 2 } },"#;
 /// A strand that lies, one that rises and turns.
 const LYING: [[f64; 3]; 3] = [[-20.0, -10.0, 1.0], [20.0, -10.0, 1.0], [20.0, 15.0, 1.0]];
 const RISING: [[f64; 3]; 4] =
     [[-20.0, 10.0, 1.0], [0.0, 12.0, 15.0], [10.0, 20.0, 25.0], [20.0, 5.0, 25.0]];
 
-fn planned(job: &Job) -> (Vec<Path>, Motion) {
+pub(super) fn planned(job: &Job) -> (Vec<Path>, Motion) {
     let paths = toolpath::paths(job);
     let motion = plan(job, &paths);
     (paths, motion)
 }
 
 /// Place and axis of the nozzle in part axes.
-fn nozzle(job: &Job, q: &Posture) -> (Point, Vector) {
+pub(super) fn nozzle(job: &Job, q: &Posture) -> (Point, Vector) {
     let tip = job.cell.robot.arm.chain.forward(q);
     let part_from_world = (job.cell.world_from_bed(&tip) * job.bed_from_part).inverse();
     let part_from_tool = part_from_world * job.cell.world_from_tool(&tip);
     (part_from_tool * Point::origin(), part_from_tool * Vector::z())
 }
 
-fn prints(motion: &Motion) -> impl Iterator<Item = &Leg> {
+pub(super) fn prints(motion: &Motion) -> impl Iterator<Item = &Leg> {
     motion.legs.iter().filter(|leg| leg.phase == Phase::Print)
 }
 
@@ -39,21 +39,29 @@ fn print_moments_lie_on_the_strand_in_every_cell() {
         let tilt = format!(r#", "orientation": {{ "follow": "{follow}" }}, "overrun_mm": 2"#);
         let strands =
             [strand("a", &LYING, ", \"overrun_mm\": 2"), strand("b", &RISING, &tilt)].join(",");
-        let job = job(&text(cell, PROCESS, &strands));
+        let mut job = job(&text(cell, PROCESS, &strands));
+        // Tools set per point leave the strand; that has tests of its own.
+        job.cell.controller.linear = LinearMove::Tcp;
         modes.push(job.cell.mode);
         let (paths, motion) = planned(&job);
         assert_eq!(prints(&motion).count(), 2);
         for leg in prints(&motion) {
             let path = &paths[leg.strand.expect("a print has a strand")];
             assert!(leg.unreached.is_empty(), "{cell}: {:?}", leg.unreached);
-            assert_eq!(leg.moments.len(), path.samples.len());
-            for (moment, sample) in leg.moments.iter().zip(&path.samples) {
+            for sample in &path.samples {
+                assert!(leg.moments.iter().any(|moment| moment.at_m == sample.at_m));
+            }
+            for moment in &leg.moments {
+                let (k, sample) = place::sample_at(&path.samples, moment.at_m);
                 let (point, axis) = nozzle(&job, &moment.q);
                 assert_eq!(moment.at_m, sample.at_m);
+                // Halving the way between two axes twice is not quartering it.
+                let added = path.samples[k].at_m != moment.at_m;
+                let even_rad = if added { 1e-2 } else { 1e-9 };
                 let off_m = (point - sample.point).norm();
                 assert!(off_m < 1e-9, "{cell}: {off_m:e} m off at {} m", sample.at_m);
                 assert!(
-                    (axis - sample.nozzle).norm() < 1e-9,
+                    (axis - sample.nozzle).norm() < even_rad,
                     "{cell}: {axis} for {}",
                     sample.nozzle
                 );
@@ -108,7 +116,10 @@ fn legs_follow_each_other_in_time() {
             [(Phase::Transit, 0usize), (Phase::Approach, 0), (Phase::Print, 0), (Phase::Retract, 1)]
                 .map(|(phase, more)| (phase, Some(strand), printed + more))
         };
-        assert_eq!(phases, [of(1, 0), of(0, 1)].concat());
+        let home = [(Phase::Transit, None, 2)];
+        assert_eq!(phases, [&of(1, 0)[..], &of(0, 1), &home].concat());
+        let last = motion.legs[motion.legs.len() - 1].moments.last().expect("it moves");
+        assert_eq!(*last.q, job.cell.home[..]);
         let order: Vec<usize> = motion.printings.iter().map(|printing| printing.strand).collect();
         assert_eq!(order, [1, 0]);
         let moments: Vec<(&Leg, &Moment)> = motion
@@ -130,7 +141,12 @@ fn legs_follow_each_other_in_time() {
             }
         }
         let [b, a] = [&motion.printings[0], &motion.printings[1]];
-        assert!((a.end_s - a.start_s - paths[0].length_m / 2e-3).abs() < 1e-9);
+        // Rests at both ends and, unless corners are rounded, at the one in between: a ramp loses half
+        // its time.
+        let (ramp_s, _) = job.cell.controller.ramp(2e-3);
+        let n_ramps = if job.cell.controller.blend_m > 0.0 { 2.0 } else { 4.0 };
+        let lost_s = a.end_s - a.start_s - paths[0].length_m / 2e-3;
+        assert!((lost_s - n_ramps * ramp_s / 2.0).abs() < 5e-3 * ramp_s, "{cell}: {lost_s} s");
         // the wait, priming and the dwell at the start all pass before it
         assert!(a.start_s >= b.end_s + 7.0 + 0.5 + 1.0);
         assert!(motion.total_s >= a.end_s + 2.0);
@@ -179,62 +195,5 @@ fn what_is_out_of_reach_is_told() {
     assert!(strands[0].is_some() && strands[1].is_none() && strands[2].is_some());
     assert_eq!(motion.printings.len(), 3);
     let legs: Vec<&Leg> = prints(&motion).collect();
-    assert_eq!(legs[0].moments.len() + legs[0].unreached.len(), paths[0].samples.len());
-}
-
-/// A job's own joint path is followed row by row, however near its points are to each other.
-#[test]
-fn given_joints_are_followed_as_they_stand() {
-    let points_mm: Vec<[f64; 3]> = (0..40).map(|k| [0.4 * f64::from(k), 0.0, 1.0]).collect();
-    let free = job(&text("kr10-cone", PROCESS, &strand("a", &points_mm, "")));
-    let arm = &free.cell.robot.arm;
-    let mut rows = Vec::new();
-    let mut before = Posture::new(&free.cell.home);
-    for point in &free.strands[0].points {
-        let mut solutions = Vec::new();
-        solve(&free, *point, -Vector::z(), 0.0, 0.0, Some(&before), &mut solutions);
-        before = strand::nearest(&solutions, &before).expect("within reach");
-        rows.push(before.iter().map(|q| q.to_degrees()).collect::<Vec<f64>>());
-    }
-    let given = job(&text(
-        "kr10-cone",
-        PROCESS,
-        &strand("a", &points_mm, &format!(", \"joints\": {rows:?}")),
-    ));
-    let (paths, motion) = planned(&given);
-    let leg = prints(&motion).next().expect("one print");
-    assert_eq!(leg.moments.len(), rows.len());
-    for (moment, row) in leg.moments.iter().zip(&rows) {
-        for (q, deg) in moment.q.iter().zip(row) {
-            assert!((q - deg.to_radians()).abs() < 1e-15);
-        }
-    }
-    let mut findings = Findings::default();
-    let along = check(&given, &paths, &motion, &mut findings)[0].expect("it is reached");
-    assert!(along.deviation_m < 1e-6, "{}", along.deviation_m);
-    assert!(findings.sorted().is_empty(), "{:?}", findings.sorted());
-    assert!(STEP_M > 0.4e-3 && arm.chain.dof() == 6);
-}
-
-/// A joint row that stands a millimetre beside its point is a TCP off the strand by a millimetre.
-#[test]
-fn given_joints_beside_the_strand_are_found() {
-    let points_mm = [[0.0, 0.0, 1.0], [3.0, 0.0, 1.0]];
-    let free = job(&text("kr10-cone", PROCESS, &strand("a", &points_mm, "")));
-    let mut rows = Vec::new();
-    for (point, off_m) in free.strands[0].points.iter().zip([0.0, 1e-3]) {
-        let mut solutions = Vec::new();
-        let beside = point + Vector::new(0.0, off_m, 0.0);
-        solve(&free, beside, -Vector::z(), 0.0, 0.0, None, &mut solutions);
-        let q = strand::nearest(&solutions, &free.cell.home).expect("within reach");
-        rows.push(q.iter().map(|q| q.to_degrees()).collect::<Vec<f64>>());
-    }
-    let job = job(&text(
-        "kr10-cone",
-        PROCESS,
-        &strand("a", &points_mm, &format!(", \"joints\": {rows:?}")),
-    ));
-    let (paths, motion) = planned(&job);
-    let along = check(&job, &paths, &motion, &mut Findings::default())[0].expect("it is reached");
-    assert!((along.deviation_m - 1e-3).abs() < 1e-6, "{}", along.deviation_m);
+    assert!(legs[0].moments.len() + legs[0].unreached.len() >= paths[0].samples.len());
 }

@@ -4,12 +4,16 @@
 
 mod clear;
 mod making;
+mod program;
 mod totals;
+mod tracking;
 mod view;
 
 pub use clear::Cleared;
 pub use making::StrandResult;
+pub use program::Program;
 pub use totals::{Assumption, Totals};
+pub use tracking::{SETTLED_M, Tracking};
 pub use view::scene;
 
 use crate::cell::Job;
@@ -73,6 +77,8 @@ pub struct Preflight {
     pub growth: Growth,
     /// Smallest clearance measured.
     pub nearest: Option<Nearest>,
+    /// What the program asks of the arm beyond its path.
+    pub program: Program,
     /// Times, lengths and mass.
     pub totals: Totals,
     /// What the answer rests on.
@@ -121,7 +127,9 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let strand_motion = motion::check(&job, &paths, &motion, &mut findings);
 
     progress(Step::Process);
-    let strands = making::make(&job, &paths, &motion, &mut findings);
+    // The bead is made by the speed the orifice really has.
+    let moved = motion::as_moved(&paths, &motion);
+    let strands = making::make(&job, &moved, &motion, &mut findings);
     let deposit = making::as_printed(&job, &motion, &strands);
     let contacts = deposit::contacts(&deposit);
 
@@ -135,6 +143,8 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let nearest = collision::check(&job, &motion, &deposit, &contacts, &mut findings);
 
     let totals = totals::totals(&job, &motion, &paths, &strands);
+    let program =
+        program::check(&job, &paths, &motion, &deposit, &contacts, &totals, &mut findings);
     let assumptions = totals::assumptions(&job, &growth);
     let (scores, verdict) = (findings.scores(), findings.verdict());
     let findings = findings.sorted();
@@ -148,6 +158,7 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
         strands,
         growth,
         nearest,
+        program,
         totals,
         assumptions,
         findings,

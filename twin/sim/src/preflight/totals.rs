@@ -68,16 +68,42 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
     let robot = &job.cell.robot;
     say(
         "motion",
-        "TCP speed is constant along a strand: ramps and corner blending are not modelled."
-            .to_owned(),
+        format!(
+            "ramps of {:.1} m/s² and {:.0} m/s³ along the path, corners {}; the controller's own blending may differ.",
+            job.cell.controller.acceleration_m_s2,
+            job.cell.controller.jerk_m_s3,
+            if job.cell.controller.blend_m > 0.0 {
+                format!("rounded within {:.1} mm", job.cell.controller.blend_m * 1e3)
+            } else {
+                "stopped at".to_owned()
+            }
+        ),
     );
+    if job.cell.dynamics().is_none() {
+        say("motion", format!("no masses are known of {}: torques are not judged.", robot.name));
+    }
+    if robot.acceleration.iter().all(Option::is_none) {
+        let text = format!("no acceleration limits are known of {}'s joints.", robot.name);
+        say("motion", text);
+    }
+    if job.cell.flange_load().is_none() {
+        say("payload", "the mass on the flange is not known: payload is not judged.".to_owned());
+    } else if robot.payload_kg.is_none() {
+        say("payload", format!("the rated payload of {} is not known.", robot.name));
+    }
     if robot.arm.coverage() == Coverage::Sampled {
         say(
             "motion",
             format!("postures of {} are searched numerically; some may be missed.", robot.name),
         );
     }
-    say("clearance", "measured at moments at most 4 mm of strand, 5 mm of straight travel or 0.05 rad of a joint apart, arm links at every third; not swept between.".to_owned());
+    say(
+        "clearance",
+        format!(
+            "covered over every motion, not sampled: nothing is nearer than told by more than {:.2} mm, or the resolution told with it; joints are taken to turn evenly between moments, and how far the lines of the controller lie off that is added.",
+            crate::collision::RESOLUTION_M * 1e3
+        ),
+    );
     say(
         "clearance",
         format!(

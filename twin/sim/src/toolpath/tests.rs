@@ -10,6 +10,7 @@ fn orientation(tilt: Tilt) -> Orientation {
         tilt,
         tilt_from_rad: 20f64.to_radians(),
         tilt_max_rad: 40f64.to_radians(),
+        tilt_free_rad: 0.0,
         spin: Spin::Free,
     }
 }

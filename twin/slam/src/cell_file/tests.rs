@@ -137,6 +137,34 @@ const BROKEN: &[(Kind, &str, &str, &str, &str)] = &[
     (Kind::Tool, "robots/tools/small-hot-end.toml", "nozzle = true", "nozzle = false", "nozzle"),
     (Kind::Tool, "robots/tools/kirkman-nozzle.toml", "leds = 8", "leds = 0", "more than 0"),
     (
+        Kind::Tool,
+        "robots/tools/small-hot-end.toml",
+        "centre_mm = [0, 0, -90]",
+        "centre_mm = [0, 0, nan]",
+        "finite",
+    ),
+    (
+        Kind::Tool,
+        "robots/tools/kirkman-nozzle.toml",
+        "orifice_diameter_mm = 3.0",
+        "centre_mm = [0, 0, -90]\norifice_diameter_mm = 3.0",
+        "a centre of mass, but no mass",
+    ),
+    (
+        Kind::Robot,
+        "robots/kuka/kr6_r900_sixx/robot.toml",
+        "payload_kg = 6.0",
+        "payload_centre_mm = [0, 0, 80]",
+        "a centre of the payload, but no payload",
+    ),
+    (
+        Kind::Cell,
+        "robots/cells/kirkman-sda10d.toml",
+        "mass_kg = 1.0",
+        "mass_kg = -1.0",
+        "more than 0",
+    ),
+    (
         Kind::Robot,
         "robots/kuka/kr6_r900_sixx/robot.toml",
         "accuracy_mm = 0.5",
@@ -198,4 +226,92 @@ fn a_missing_key_is_named_with_its_table() {
     let source = Source::new("tool", "name = \"a\"\nsource = \"ours\"\norifice_diameter_mm = 1\n");
     let said = said(&source, &problems(Kind::Tool, &source));
     assert!(said.contains("`part` is missing"), "{said}");
+}
+
+/// A cell of the library with tables added at its end.
+fn with_tables(tables: &str) -> Source {
+    let path = "/../../robots/cells/kr6-hot-end.toml";
+    let path = format!("{}{path}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a cell of the library");
+    // The tables that stand there already make room for those of the test.
+    let kept: Vec<&str> = text.split("\n[").filter(|table| !is_equipment(table)).collect();
+    Source::new("cell", format!("{}\n{tables}", kept.join("\n[")))
+}
+
+fn is_equipment(table: &str) -> bool {
+    ["controller]", "calibration]", "[hose]]", "[carried]]"].iter().any(|t| table.starts_with(t))
+}
+
+const HOSE: &str = "[[hose]]\nname = \"h\"\nlink = \"link_3\"\nat_mm = [0, 0, 100]\ntool_at_mm = [0, 0, -120]\nlength_mm = 800\nradius_mm = 8\n";
+const FEEDER: &str = "[[carried]]\nname = \"feeder\"\nlink = \"link_3\"\nshape = { box = { size_mm = [80, 80, 80], xyz_mm = [0, 0, 150] } }\n";
+
+#[test]
+fn equipment_may_be_left_out() {
+    let cell = cell_file::parse(&with_tables("")).expect("a cell without equipment");
+    assert_eq!(cell.controller, cell_file::ControllerFile::default());
+    assert!(cell.hose.is_empty() && cell.carried.is_empty() && cell.calibration.is_none());
+    assert_eq!((cell.limits.speed_band_percent, cell.limits.cycle_time_s), (10.0, None));
+    let tables =
+        format!("{HOSE}{FEEDER}[controller]\nblend_mm = 2\n[calibration]\ntool_mm = 0.3\n");
+    let source = with_tables(&tables);
+    let cell = cell_file::parse(&source).unwrap_or_else(|p| panic!("{}", said(&source, &p)));
+    assert_eq!((cell.controller.blend_mm, cell.controller.joint_move_percent), (2.0, 100.0));
+    assert_eq!((cell.hose[0].length_mm, cell.hose[0].twist_deg), (800.0, None));
+    assert_eq!(cell.carried[0].link, "link_3");
+    let calibration = cell.calibration.expect("the table is there");
+    assert_eq!((calibration.tool_mm, calibration.form_deg), (0.3, 0.1));
+}
+
+#[test]
+fn impossible_equipment_is_refused_at_its_place() {
+    let controller = |line: &str| format!("[controller]\n{line}\n");
+    let calibration = |line: &str| format!("[calibration]\n{line}\n");
+    let hose = |good: &str, bad: &str| HOSE.replacen(good, bad, 1);
+    let cases = [
+        (controller("acceleration_mm_s2 = 0"), "= 0", "more than 0"),
+        (controller("jerk_mm_s3 = -5"), "= -5", "more than 0"),
+        (controller("blend_mm = -1"), "= -1", "not be negative"),
+        (controller("joint_move_percent = 150"), "= 150", "at most 100"),
+        (controller("joint_acceleration_percent = 0"), "= 0", "above 0"),
+        (controller("acceleration = 3"), "acceleration = 3", "unknown key"),
+        (calibration("tool_mm = -0.1"), "= -0.1", "from 0 to 100"),
+        (calibration("base_deg = 45"), "= 45", "from 0 to 10"),
+        (hose("length_mm = 800", "length_mm = 0"), "length_mm = 0", "more than 0"),
+        (hose("radius_mm = 8", "radius_mm = 900"), "radius_mm", "wider than its length"),
+        (hose("radius_mm = 8", "twist_deg = -90\nradius_mm = 8"), "= -90", "more than 0"),
+        (hose("at_mm = [0, 0, 100]", "at_mm = [0, nan, 100]"), "nan", "finite"),
+        (hose("\"link_3\"", "\"\""), "link =", "empty"),
+        (format!("{HOSE}{HOSE}"), "name = \"h\"", "two hoses named `h`"),
+        (format!("{FEEDER}{FEEDER}"), "\"feeder\"", "two carried bodies named `feeder`"),
+        (FEEDER.replacen("[80, 80, 80]", "[80, 0, 80]", 1), "size_mm", "more than 0"),
+    ];
+    for (tables, at, word) in cases {
+        let source = with_tables(&tables);
+        let found = problems(Kind::Cell, &source);
+        let line = source.text.lines().count() - tables.lines().count()
+            + tables
+                .lines()
+                .enumerate()
+                .filter(|(_, line)| line.contains(at))
+                .last()
+                .map_or(0, |(k, _)| k + 1);
+        let hit = found.iter().any(|problem| {
+            source.line_column(problem.span.start).0 == line && problem.message.contains(word)
+        });
+        assert!(hit, "{tables}at line {line}:\n{}", said(&source, &found));
+    }
+    let limits = [
+        ("speed_band_percent = 120", "at most 100"),
+        ("torque_percent = 0", "above 0"),
+        ("cycle_time_s = 0", "more than 0"),
+    ];
+    for (line, word) in limits {
+        let key = line.split(' ').next().expect("a key");
+        let text = with_tables("").text;
+        let others: Vec<&str> = text.lines().filter(|line| !line.starts_with(key)).collect();
+        let text = others.join("\n").replace("sag_mm = 1.0", &format!("{line}\nsag_mm = 1.0"));
+        let source = Source::new("cell", text);
+        let said = said(&source, &problems(Kind::Cell, &source));
+        assert!(said.contains(word), "{line}: {said}");
+    }
 }

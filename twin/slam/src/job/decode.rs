@@ -94,6 +94,7 @@ fn orientation(object: &Object<'_>) -> Orientation {
         }),
         tilt_from_deg: number(object, "tilt_from_deg"),
         tilt_max_deg: number(object, "tilt_max_deg"),
+        tilt_free_deg: number(object, "tilt_free_deg"),
         spin,
     }
 }
@@ -192,6 +193,8 @@ fn limits(object: &Object<'_>) -> Limits {
         node_miss_mm: number(object, "node_miss_mm"),
         sag_mm: number(object, "sag_mm"),
         deflection_mm: number(object, "deflection_mm"),
+        speed_band_percent: number(object, "speed_band_percent"),
+        cycle_time_s: number(object, "cycle_time_s"),
     }
 }
 

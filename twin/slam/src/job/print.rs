@@ -99,6 +99,7 @@ fn orientation(orientation: &Orientation) -> Vec<String> {
     fields.extend(numbers(&[
         ("tilt_from_deg", orientation.tilt_from_deg),
         ("tilt_max_deg", orientation.tilt_max_deg),
+        ("tilt_free_deg", orientation.tilt_free_deg),
     ]));
     fields.extend(orientation.spin.map(|spin| match spin.value {
         Spin::Free => field("spin", string("free")),
@@ -213,6 +214,8 @@ fn limits(limits: &Limits) -> Vec<String> {
         ("node_miss_mm", limits.node_miss_mm),
         ("sag_mm", limits.sag_mm),
         ("deflection_mm", limits.deflection_mm),
+        ("speed_band_percent", limits.speed_band_percent),
+        ("cycle_time_s", limits.cycle_time_s),
     ])
 }
 

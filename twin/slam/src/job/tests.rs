@@ -35,7 +35,7 @@ pub(super) const EXAMPLE: &str = r#"{
   ],
   "sequence": [{ "move": { "joints": [[0, 0, 0, 90, 0, 60, 0]] } }, "helix", { "wait_s": 60 }, "b", { "release": "mould" }, { "checkpoint": "a" }],
   "loads": [{ "name": "test", "supports": [{ "at_mm": [0, 0, 0], "fix": "xyz" }], "forces": [{ "at_mm": [75, 0, 30], "force_n": [0, 0, -100] }] }],
-  "limits": { "clearance_mm": 1.0, "node_miss_mm": 1.0, "sag_mm": 2, "deflection_mm": 5 },
+  "limits": { "clearance_mm": 1.0, "node_miss_mm": 1.0, "sag_mm": 2, "deflection_mm": 5, "speed_band_percent": 5, "cycle_time_s": 600 },
 }
 "#;
 

@@ -44,12 +44,18 @@ fn orientation() -> impl Strategy<Value = Orientation> {
         prop_oneof![Just(Follow::Tangent), Just(Follow::Vertical), Just(Follow::SurfaceNormal)];
     let tilt = prop_oneof![Just(Tilt::Cone), Just(Tilt::PerAxis)];
     let spin = prop_oneof![Just(Spin::Free), (-360.0..360.0_f64).prop_map(Spin::HeldDeg)];
-    let parts = (option::of(follow), option::of(tilt), positive(), positive(), option::of(spin));
-    parts.prop_map(|(follow, tilt, from, max, spin)| Orientation {
+    let parts = (
+        option::of(follow),
+        option::of(tilt),
+        [positive(), positive(), positive()],
+        option::of(spin),
+    );
+    parts.prop_map(|(follow, tilt, [from, max, free], spin)| Orientation {
         follow: follow.map(placed),
         tilt: tilt.map(placed),
         tilt_from_deg: from.filter(|from| from.value <= 90.0),
         tilt_max_deg: max,
+        tilt_free_deg: free.filter(|free| free.value <= 90.0),
         spin: spin.map(placed),
     })
 }
@@ -149,7 +155,7 @@ fn load() -> impl Strategy<Value = LoadCase> {
 }
 
 fn document() -> impl Strategy<Value = Document> {
-    let head = (text(), text(), option::of(triple()), vec(positive(), 6));
+    let head = (text(), text(), option::of(triple()), vec(positive(), 8));
     let parts = (vec(strand(), 1..5), process(), vec(load(), 0..3), any::<bool>());
     (head, parts).prop_map(|((name, cell, xyz_mm, n), (mut strands, process, loads, ordered))| {
         for (index, strand) in strands.iter_mut().enumerate() {
@@ -186,6 +192,8 @@ fn document() -> impl Strategy<Value = Document> {
                 node_miss_mm: n[3],
                 sag_mm: n[4],
                 deflection_mm: n[5],
+                speed_band_percent: n[6],
+                cycle_time_s: n[7],
             },
         }
     })

@@ -64,6 +64,16 @@ fn broken_robots_are_refused_at_their_place() {
         (r#"velocity="3" effort="0""#, r#"velocity="NaN""#, "14:|\"NaN\" is not finite"),
         (r#"value="2""#, r#"value="-2""#, "6:|must not be negative"),
         (r#"radius="0.1""#, r#"radius="0""#, "7:|must be positive"),
+        (r#"value="2""#, r#"value="0""#, "6:50: |a body with inertia has a mass above 0"),
+        (
+            r#"izz="3""#,
+            r#"izz="3.02""#,
+            "6:67: |principal moments of 1.0000, 2.0000 and 3.0200 kg m²",
+        ),
+        (r#"ixy="0""#, r#"ixy="-1.5""#, "6:67: |principal moments of -0.0811, 3.0000 and 3.0811"),
+        (r#"iyz="0""#, r#"iyz="1""#, "6:67: |no body has"),
+        (r#"ixx="1""#, r#"ixx="one""#, "6:|ixx of <inertia>: \"one\" is not a number"),
+        (r#"<mass value="2"/>"#, "", "mass"),
         (r#"scale="0.001 0.001 0.001""#, r#"scale="1 1 0""#, "must not be zero"),
         (r#"xyz="0 3 4""#, r#"xyz="0 0 0""#, "13:|must not be zero"),
         (
@@ -121,6 +131,19 @@ fn broken_robots_are_refused_at_their_place() {
     }
     assert!(problems(&"<a>".repeat(1_000_000))[0].contains("nested deeper"));
     assert!(problems("<robot name='r'></robot>")[0].contains("no link"));
+}
+
+#[test]
+fn a_mass_of_nothing_is_none() {
+    let inertial = &ARM[ARM.find("<inertia ").unwrap()..ARM.find("</inertial>").unwrap()];
+    let zero = r#"<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>"#;
+    let text = ARM.replace(inertial, zero);
+    assert_eq!(parse(&Source::new("r", text.as_str())).unwrap().links[1].mass_kg, Some(2.0));
+    let text = text.replace(r#"value="2""#, r#"value="0""#);
+    assert_eq!(parse(&Source::new("r", text)).unwrap().links[1].mass_kg, None);
+    // A thin plate, as published with three digits.
+    let plate = r#"<inertia ixx="0.333" ixy="0" ixz="0" iyy="0.167" iyz="0" izz="0.501"/>"#;
+    assert!(parse(&Source::new("r", ARM.replace(inertial, plate))).is_ok());
 }
 
 #[test]

@@ -61,3 +61,36 @@ fn margins_count_from_the_nearer_limit() {
     let expected = [0.1, 0.375, -0.5];
     assert!(margins.distance(&expected) < 1e-12, "{margins:?}");
 }
+
+#[test]
+#[allow(clippy::print_stderr)]
+fn condition_is_that_of_the_singular_values() {
+    let mut random = Xorshift::new(61);
+    let mut chains: Vec<Chain> = closed_form_arms().into_iter().map(|(_, arm)| arm.chain).collect();
+    chains.extend([
+        super::forward::mixed_chain(),
+        super::published::sda10_left(),
+        super::published::ur10e(),
+    ]);
+    let (mut worst, mut hardest) = (0.0_f64, 0.0_f64);
+    for chain in chains {
+        for round in 0..300 {
+            let mut q = random_q(&chain, &mut random);
+            // Every third a little off a singular posture: lined-up wrist, straight elbow.
+            let joint = [4, 5, 2, 3][round / 3 % 4];
+            if round % 3 == 0 && joint < chain.dof() {
+                q[joint] = 10.0_f64.powf(-6.0 * random.unit());
+            }
+            let sigma = chain.jacobian(&q).singular_values();
+            let exact = sigma.max() / sigma.min();
+            if exact > 1e6 {
+                continue;
+            }
+            let off = (condition_number(&chain, &q) / exact - 1.0).abs();
+            assert!(off < 1e-9, "{exact}: {off}");
+            (worst, hardest) = (worst.max(off), hardest.max(exact));
+        }
+    }
+    assert!(hardest > 1e4, "{hardest}");
+    eprintln!("condition number: {worst:.1e} relative at most, up to {hardest:.0}");
+}

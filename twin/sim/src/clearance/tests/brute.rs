@@ -5,6 +5,7 @@
 //! the separating plane it implies, and where that does not bear it out the distance is computed
 //! here, from every pair of triangles. O(m · n), but rarely.
 
+use crate::clearance::core::Core;
 use crate::deposit::closest;
 use crate::pose::{Point, Vector};
 
@@ -60,4 +61,20 @@ fn normal([a, b, c]: &Triangle) -> Option<Vector> {
 
 fn inside(point: &Point, face: &Triangle, normal: &Vector) -> bool {
     edges(face).iter().all(|[a, b]| (b - a).cross(&(point - a)).dot(normal) >= 0.0)
+}
+
+/// Whether a place is in a core, by the planes of a box or a tetrahedron, with room for rounding.
+pub(super) fn holds(core: &Core, place: &Point) -> bool {
+    match core {
+        Core::Box { middle, half } => half
+            .iter()
+            .all(|edge| (place - middle).dot(edge).abs() <= edge.norm_squared() * (1.0 + 1e-9)),
+        Core::Hull(corners) => (0..4).all(|k| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|j| corners[(j + k) % 4]);
+            let normal = (b - a).cross(&(c - a));
+            let (inner, side) = (normal.dot(&(d - a)), normal.dot(&(place - a)));
+            side * inner >= -1e-9 * inner * inner
+        }),
+        _ => false,
+    }
 }

@@ -3,11 +3,11 @@
 use crate::pose::Point;
 
 /// A straight piece by its ends.
-pub(super) type Piece = [Point; 2];
+pub(crate) type Piece = [Point; 2];
 
 /// The pieces of `whole` outside all spheres of radius `radius_m` about `centres`; at most one
 /// more than there are spheres.
-pub(super) fn outside(whole: Piece, centres: &[Point], radius_m: f64, pieces: &mut Vec<Piece>) {
+pub(crate) fn outside(whole: Piece, centres: &[Point], radius_m: f64, pieces: &mut Vec<Piece>) {
     pieces.clear();
     pieces.push(whole);
     for centre in centres {

@@ -1,0 +1,123 @@
+//! C208: a bead laid through an earlier one.
+//!
+//! The orifice follows the axis of the bead it lays. Beads laid one above the other have their axes about a
+//! bead apart and the orifice passes over the earlier one. Where its path comes nearer to the
+//! earlier axis than that bead's radius, the orifice runs under its surface: a little of it is pressing
+//! one bead into the other, half the radius is ploughing.
+//!
+//! ```text
+//! depth = (r − d) / r        r: radius of the earlier bead
+//!                            d: orifice's path (as planned) – earlier axis (as printed)
+//! ```
+//!
+//! At its ends a strand may be joined to whatever is there: places within the touch zone of an end of
+//! either strand are left out.
+
+use std::collections::BTreeMap;
+
+use crate::cell::Job;
+use crate::clearance::outside;
+use crate::deposit::{Deposit, Segment, closest};
+use crate::finding::{Check, Code, Findings, Phase, Site, Words};
+use crate::interval::Interval;
+use crate::motion::Motion;
+use crate::pose::{Point, Vector};
+
+/// Share of the earlier bead's radius that the orifice may run under its surface: a quarter of the
+/// diameter, of which heat and pressure of the nozzle make a joint. Ours; no measurement found.
+const DEPTH_SHARE: f64 = 0.5;
+
+/// Where the orifice is deepest in one earlier strand.
+struct Deepest {
+    earlier: usize,
+    share: f64,
+    at_m: f64,
+    point: Point,
+}
+
+/// Judges every strand that was printed against those before it.
+pub(super) fn check(job: &Job, motion: &Motion, deposit: &Deposit, findings: &mut Findings) {
+    for (order, printing) in motion.printings.iter().enumerate().take(deposit.strands.len()) {
+        let printed = &deposit.strands[order];
+        for deepest in through(job, deposit, order) {
+            let length_m = printed.at_m.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
+            let part = deepest.at_m / length_m;
+            let time_s = printing.start_s + (printing.end_s - printing.start_s) * part;
+            let (id, other) =
+                (&job.strands[printed.strand].id, deposit.strands[deepest.earlier].strand);
+            let earlier = job.strands[other].id.as_str();
+            let site = Site::strand(printed.strand, deepest.at_m)
+                .during(Phase::Print)
+                .at(deepest.point)
+                .between(["nozzle", earlier]);
+            let check = Check {
+                code: Code::C208,
+                measured: Interval::exact(deepest.share),
+                limit: DEPTH_SHARE,
+                warn_limit: None,
+                site,
+                time_s: Some(time_s),
+            };
+            findings.check(check, || Words {
+                message: format!(
+                    "strand `{id}` runs through `{earlier}` at {:.1} mm, {:.0} % of its radius deep",
+                    deepest.at_m * 1e3,
+                    deepest.share * 100.0
+                ),
+                hint: format!(
+                    "lead `{id}` over `{earlier}` with the axes about a bead apart, or end one of them there"
+                ),
+            });
+        }
+    }
+}
+
+/// Where the orifice is deepest in each earlier strand, and in this one's own earlier part.
+fn through(job: &Job, deposit: &Deposit, order: usize) -> Vec<Deepest> {
+    let strand = &deposit.strands[order];
+    let mut deepest: BTreeMap<usize, Deepest> = BTreeMap::new();
+    let mut near = Vec::new();
+    let mut pieces = Vec::new();
+    for k in 1..strand.as_planned.len() {
+        let path = [strand.as_planned[k - 1], strand.as_planned[k]];
+        let reach = Vector::repeat(strand.radius_m);
+        let (low, high) = (path[0].inf(&path[1]) - reach, path[0].sup(&path[1]) + reach);
+        deposit.near(low, high, &mut near);
+        for &index in &near {
+            let earlier = &deposit.segments[index as usize];
+            if !is_earlier(earlier, order, strand.at_m[k - 1] - 2.0 * job.limits.touch_zone_m) {
+                continue;
+            }
+            let ends = joints(deposit, [order, earlier.order]);
+            outside(path, &ends, job.limits.touch_zone_m, &mut pieces);
+            for piece in &pieces {
+                let [s, t] = closest(piece, &earlier.ends);
+                let point = piece[0] + (piece[1] - piece[0]) * s;
+                let other = earlier.ends[0] + (earlier.ends[1] - earlier.ends[0]) * t;
+                let share = (earlier.radius_m - (point - other).norm()) / earlier.radius_m;
+                let at_m = strand.at_m[k - 1] + (point - path[0]).norm();
+                let known = deepest.get(&earlier.order).map_or(0.0, |known| known.share);
+                if share > known {
+                    let here = Deepest { earlier: earlier.order, share, at_m, point };
+                    deepest.insert(earlier.order, here);
+                }
+            }
+        }
+    }
+    deepest.into_values().collect()
+}
+
+/// Whether a bead is there when the strand of this order is laid; its own beads count from
+/// `behind_m` backwards, so that a corner is no crossing.
+fn is_earlier(bead: &Segment, order: usize, behind_m: f64) -> bool {
+    bead.order < order || (bead.order == order && bead.at_m[1] <= behind_m)
+}
+
+/// The ends of two strands.
+fn joints(deposit: &Deposit, orders: [usize; 2]) -> Vec<Point> {
+    let ends = |order: usize| {
+        let points = &deposit.strands[order].as_printed;
+        points.first().into_iter().chain(points.last())
+    };
+    orders.into_iter().flat_map(ends).copied().collect()
+}

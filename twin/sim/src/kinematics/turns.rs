@@ -1,0 +1,136 @@
+//! Copies of a joint value a full turn apart, and of a joint vector by them.
+
+use std::f64::consts::{PI, TAU};
+
+use super::chain::{Chain, ChainAxis};
+use super::posture::{MAX_DOF, Posture};
+
+/// How far past a limit rounding may put a solution; it is then set on the limit.
+const LIMIT_SLACK: f64 = 1e-10;
+
+/// All values of a joint within its limits that leave the arm where a given value puts it; one
+/// that rounding has put past a limit is set on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turns {
+    /// The least of them, rad or m.
+    pub(super) first: f64,
+    /// How many follow, each a full turn further.
+    pub(super) more: u32,
+}
+
+impl Turns {
+    /// One value, whatever the limits.
+    pub(super) fn only(value: f64) -> Self {
+        Self { first: value, more: 0 }
+    }
+
+    /// Copies of `value` within the limits of `axis`; `None` where there are none. A joint with an open
+    /// end has endless ones: then the one nearest to `near` (else to zero).
+    pub(super) fn within(axis: &ChainAxis, value: f64, near: Option<f64>) -> Option<Self> {
+        let (lower, upper) = (axis.lower - LIMIT_SLACK, axis.upper + LIMIT_SLACK);
+        let inside = value >= lower && value <= upper;
+        // The common cases first, without division.
+        let found = if !axis.periodic || (inside && value - TAU < lower && value + TAU > upper) {
+            inside.then_some(Self::only(value))
+        } else if upper - lower < 3.0 * TAU && lower.abs() < 9.0 * TAU && value.abs() < 9.0 * TAU {
+            Self::counted(lower, upper, value)
+        } else if lower.is_finite() && upper.is_finite() {
+            let first = ((lower - value) / TAU).ceil();
+            let last = ((upper - value) / TAU).floor();
+            // More than a thousand turns each way is a limit that means nothing.
+            let more = (last - first).min(2000.0) as u32;
+            (last >= first).then_some(Self { first: value + first * TAU, more })
+        } else {
+            Self::nearest(lower, upper, value, near.unwrap_or(0.0))
+        };
+        let found = found?;
+        Some(Self { first: found.first.max(axis.lower).min(axis.upper), ..found })
+    }
+
+    /// The one of endless copies that lies next to `near`.
+    fn nearest(lower: f64, upper: f64, value: f64, near: f64) -> Option<Self> {
+        let mut only = value + ((near - value) / TAU).round() * TAU;
+        if lower.is_finite() && only < lower {
+            only += ((lower - only) / TAU).ceil() * TAU;
+        }
+        if upper.is_finite() && only > upper {
+            only -= ((only - upper) / TAU).ceil() * TAU;
+        }
+        only.is_finite().then_some(Self::only(only))
+    }
+
+    /// The same for narrow limits, turn by turn.
+    fn counted(lower: f64, upper: f64, value: f64) -> Option<Self> {
+        let mut first = value;
+        while first < lower {
+            first += TAU;
+        }
+        while first - TAU >= lower {
+            first -= TAU;
+        }
+        let (mut last, mut more) = (first, 0);
+        while last + TAU <= upper {
+            (last, more) = (last + TAU, more + 1);
+        }
+        (first <= upper).then_some(Self { first, more })
+    }
+}
+
+/// Calls `each` with every joint vector that takes each entry from its turns.
+pub(super) fn copies(axes: &[ChainAxis], turns: &[Turns], mut each: impl FnMut(Posture)) {
+    let mut copy = Posture::zeros(turns.len());
+    for (entry, turns) in copy.iter_mut().zip(turns) {
+        *entry = turns.first;
+    }
+    let mut counts = [0_u32; MAX_DOF];
+    loop {
+        each(copy);
+        // Counts up like an odometer.
+        let Some(index) = (0..turns.len()).find(|&index| counts[index] < turns[index].more) else {
+            return;
+        };
+        counts[..index].fill(0);
+        counts[index] += 1;
+        for (entry, turns) in copy[..index].iter_mut().zip(turns) {
+            *entry = turns.first;
+        }
+        let further = turns[index].first + f64::from(counts[index]) * TAU;
+        copy[index] = further.min(axes[index].upper);
+    }
+}
+
+/// Turns of every entry of `q`; `None` where some joint cannot be brought within its limits.
+pub(super) fn all_turns(
+    chain: &Chain,
+    q: &[f64],
+    near: Option<&[f64]>,
+) -> Option<[Turns; MAX_DOF]> {
+    let mut turns = [Turns::only(0.0); MAX_DOF];
+    for (index, (axis, &value)) in chain.axes().iter().zip(q).enumerate().take(MAX_DOF) {
+        let near = near.and_then(|seed| seed.get(index).copied());
+        turns[index] = Turns::within(axis, value, near)?;
+    }
+    Some(turns)
+}
+
+/// Calls `each` with every copy of `q` within limits that differs by full turns of its periodic
+/// joints only, `q` itself included where it is within; none where some joint cannot be brought
+/// within its limits.
+///
+/// A joint with an open end has endless copies: only the one nearest to `near` (else to zero)
+/// is given for it.
+pub fn wraps(chain: &Chain, q: &[f64], near: Option<&[f64]>, each: impl FnMut(Posture)) {
+    if let Some(turns) = all_turns(chain, q, near) {
+        let dof = chain.dof().min(q.len()).min(MAX_DOF);
+        copies(chain.axes(), &turns[..dof], each);
+    }
+}
+
+/// Whether two values of a joint are nearer than `same`, full turns aside.
+pub(super) fn same_turned(axis: &ChainAxis, a: f64, b: f64, same: f64) -> bool {
+    let mut apart = (a - b).abs();
+    if axis.periodic && apart > PI {
+        apart = (apart - TAU * (apart / TAU).round()).abs();
+    }
+    apart <= same
+}
