@@ -101,22 +101,29 @@ pub(crate) fn folder_of(path: &Path) -> PathBuf {
 }
 
 /// Writes a file under a temporary name beside it, then renames: readers see the old file or the
-/// whole new one.
+/// whole new one. A link is followed, and a device or a pipe (`/dev/stdout`, `/dev/null`) is written
+/// to: a rename would put a plain file in its place.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
-    let write = || -> io::Result<()> {
-        let mut name = std::ffi::OsString::from(".");
-        name.push(path.file_name().unwrap_or_default());
-        name.push(format!(".{}.tmp", std::process::id()));
-        let temporary = path.with_file_name(name);
-        let written = File::create(&temporary).and_then(|mut file| file.write_all(bytes));
-        let renamed = written.and_then(|()| fs::rename(&temporary, path));
-        if renamed.is_err() {
-            let _ = fs::remove_file(&temporary);
-        }
-        renamed
-    };
-    write().map_err(|error| {
+    write(path, bytes).map_err(|error| {
         Refusal::whole(path.display().to_string(), format!("the file cannot be written: {error}"))
             .hint("is the folder there, and may you write to it?")
     })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    // Asked of `path`: what `/dev/stdout` leads to through a pipe has no name of its own.
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return File::options().write(true).open(path)?.write_all(bytes);
+    }
+    let mut name = std::ffi::OsString::from(".");
+    name.push(target.file_name().unwrap_or_default());
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary = target.with_file_name(name);
+    let written = File::create(&temporary).and_then(|mut file| file.write_all(bytes));
+    let renamed = written.and_then(|()| fs::rename(&temporary, &target));
+    if renamed.is_err() {
+        let _ = fs::remove_file(&temporary);
+    }
+    renamed
 }

@@ -203,10 +203,7 @@ impl Orifice {
         if q.len() != chain.dof() {
             return None;
         }
-        let tip = chain.forward(q);
-        let bed_from_tool =
-            self.cell.world_from_bed(&tip).inverse() * self.cell.world_from_tool(&tip);
-        Some((bed_from_tool.translation.vector * 1e3).into())
+        Some((self.cell.bed_from_tool(q).translation.vector * 1e3).into())
     }
 }
 

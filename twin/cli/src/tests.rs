@@ -106,3 +106,33 @@ fn doctor_reads_the_whole_library() {
         assert!(done.out.contains(name), "{name} in {}", done.out);
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_stays_a_pipe_and_gets_the_bytes() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let pipe = folder("pipe").join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || std::fs::read(pipe).expect("the pipe can be read")
+    });
+    crate::files::write_whole(&pipe, b"plan").expect("it is written");
+    // Looked at before joining: were the pipe gone, its reader would wait for ever.
+    assert!(std::fs::symlink_metadata(&pipe).expect("there").file_type().is_fifo());
+    assert_eq!(reader.join().expect("read"), b"plan");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link_and_what_it_names_is_written() {
+    let folder = folder("link");
+    let (link, file) = (folder.join("link"), folder.join("file"));
+    std::fs::write(&file, "old").expect("written");
+    std::os::unix::fs::symlink(&file, &link).expect("linked");
+    crate::files::write_whole(&link, b"new").expect("it is written");
+    assert!(std::fs::symlink_metadata(&link).expect("there").is_symlink());
+    assert_eq!(std::fs::read(&file).expect("read"), b"new");
+    assert_eq!(std::fs::read_dir(&folder).expect("listed").count(), 2);
+}

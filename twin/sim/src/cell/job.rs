@@ -41,6 +41,11 @@ impl Job {
         })
     }
 
+    /// Pose of the tool in part axes in a posture of the arm.
+    pub fn part_from_tool(&self, q: &[f64]) -> Pose {
+        self.bed_from_part.inverse() * self.cell.bed_from_tool(q)
+    }
+
     /// Gravity in part axes when the tip of the arm is at `world_from_tip`, m/s².
     pub fn gravity_in_part(&self, world_from_tip: &Pose) -> Vector {
         let world_from_part = self.cell.world_from_bed(world_from_tip) * self.bed_from_part;

@@ -62,6 +62,12 @@ impl Cell {
         }
     }
 
+    /// Pose of the tool in bed axes in a posture of the arm.
+    pub fn bed_from_tool(&self, q: &[f64]) -> Pose {
+        let world_from_tip = self.robot.arm.chain.forward(q);
+        self.world_from_bed(&world_from_tip).inverse() * self.world_from_tool(&world_from_tip)
+    }
+
     /// What rides on the flange before anything is printed, tip axes; `None` where its mass is
     /// unknown.
     pub fn flange_load(&self) -> Option<Body> {

@@ -90,13 +90,7 @@ impl<'a> Track<'a> {
     /// Joint values at `u`.
     pub(crate) fn posture(&self, u: f64) -> Posture {
         let (k, share) = self.step(u);
-        let mut q = self.q[k];
-        if share > 0.0 {
-            for (value, next) in q.iter_mut().zip(self.q[k + 1].iter()) {
-                *value += (next - *value) * share;
-            }
-        }
-        q
+        if share > 0.0 { self.q[k].toward(&self.q[k + 1], share) } else { self.q[k] }
     }
 
     /// Arc length on the strand being printed at `u`, m.

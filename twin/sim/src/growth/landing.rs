@@ -143,11 +143,8 @@ fn push_stages(
 fn nozzle_axis(job: &Job, printed: &Printed<'_>, strand: usize) -> Vector {
     let print = |leg: &&crate::motion::Leg| leg.phase == Phase::Print && leg.strand == Some(strand);
     let moment = printed.motion.legs.iter().find(print).and_then(|leg| leg.moments.first());
-    let cell = &job.cell;
-    let q = moment.map_or(&cell.home[..], |moment| &moment.q[..]);
-    let world_from_tip = cell.robot.arm.chain.forward(q);
-    let world_from_part = cell.world_from_bed(&world_from_tip) * job.bed_from_part;
-    world_from_part.inverse() * (cell.world_from_tool(&world_from_tip) * Vector::z())
+    let q = moment.map_or(&job.cell.home[..], |moment| &moment.q[..]);
+    job.part_from_tool(q) * Vector::z()
 }
 
 fn judge(

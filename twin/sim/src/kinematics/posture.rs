@@ -27,6 +27,16 @@ impl Posture {
         Self { values: [0.0; MAX_DOF], dof: dof.min(MAX_DOF) }
     }
 
+    /// The posture at `share` of the way to another, all joints moving evenly; at 1 exactly that one.
+    #[must_use]
+    pub fn toward(&self, to: &[f64], share: f64) -> Self {
+        let mut q = *self;
+        for (value, target) in q.iter_mut().zip(to) {
+            *value = if share == 1.0 { *target } else { *value + (target - *value) * share };
+        }
+        q
+    }
+
     /// Greatest difference of an entry, rad or m.
     pub fn distance(&self, other: &[f64]) -> f64 {
         self.iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

@@ -62,21 +62,14 @@ pub(super) fn line(
 
 /// Spin of the tool about its axis in posture `q`.
 pub(super) fn spin_of(job: &Job, point: Point, nozzle: Vector, q: &Posture) -> f64 {
-    let cell = &job.cell;
-    let world_from_tip = cell.robot.arm.chain.forward(q);
-    let actual =
-        cell.world_from_bed(&world_from_tip).inverse() * cell.world_from_tool(&world_from_tip);
+    let actual = job.cell.bed_from_tool(q);
     let turned = bed_from_tool(job, point, nozzle, 0.0).rotation.inverse() * actual.rotation;
     2.0 * turned.k.atan2(turned.w)
 }
 
 /// Nozzle place and axis in part axes in posture `q`.
 pub(super) fn nozzle_at(job: &Job, q: &Posture) -> (Point, Vector) {
-    let cell = &job.cell;
-    let world_from_tip = cell.robot.arm.chain.forward(q);
-    let bed_from_tool =
-        cell.world_from_bed(&world_from_tip).inverse() * cell.world_from_tool(&world_from_tip);
-    let part_from_tool = job.bed_from_part.inverse() * bed_from_tool;
+    let part_from_tool = job.part_from_tool(q);
     (part_from_tool * Point::origin(), part_from_tool * Vector::z())
 }
 
@@ -276,12 +269,5 @@ pub(super) fn follow(from: &Posture, rows: &[Vec<f64>], printed: usize) -> Way {
 /// Steps of a straight move in joint space, without its start.
 fn joint_steps(from: Posture, to: Posture) -> impl Iterator<Item = Posture> {
     let n_steps = (from.distance(&to) / JOINT_STEP_RAD).ceil().max(1.0) as usize;
-    (1..=n_steps).map(move |k| {
-        let share = k as f64 / n_steps as f64;
-        let mut q = from;
-        for (value, target) in q.iter_mut().zip(to.iter()) {
-            *value += (target - *value) * share;
-        }
-        q
-    })
+    (1..=n_steps).map(move |k| from.toward(&to, k as f64 / n_steps as f64))
 }

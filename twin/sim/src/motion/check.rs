@@ -3,7 +3,7 @@
 use nalgebra::center;
 
 use super::given::Rows;
-use super::measure::{Spot, StrandMotion, half_way};
+use super::measure::{Spot, StrandMotion};
 use super::place::{self, sample_at};
 use super::{Leg, Moment, Motion, transit};
 use crate::cell::{Interpolation, Job};
@@ -80,7 +80,7 @@ fn along(this: &Along<'_>, findings: &mut Findings) -> Option<StrandMotion> {
             here.joint_speed_at = Spot { at_m: sample.at_m, axis };
             let flips = this.flips((last, &from), (moment, &sample), findings);
             let middle = place::sample_between(&from, &sample, 0.5);
-            let offs = this.offs(&middle, &half_way(&last.q, &moment.q), Some((&from, &sample)));
+            let offs = this.offs(&middle, &last.q.toward(&moment.q, 0.5), Some((&from, &sample)));
             if !flips {
                 here = this.deviates(here, offs, moment, &middle, findings);
             }
@@ -249,7 +249,7 @@ impl<'a> Along<'a> {
         findings: &mut Findings,
     ) -> bool {
         let step_m = (sample.point - from.point).norm();
-        let middle = self.tcp(&half_way(&before.q, &moment.q));
+        let middle = self.tcp(&before.q.toward(&moment.q, 0.5));
         // The TCP may be off the strand by itself (set tools, given rows): the chord is its own.
         let chord = center(&self.tcp(&before.q), &self.tcp(&moment.q));
         let deviation_m = (middle - chord).norm();
@@ -391,8 +391,7 @@ impl<'a> Along<'a> {
 
     /// Place of the orifice in part axes.
     fn tcp(&self, q: &[f64]) -> Point {
-        let bed_from_tool = place::bed_from_tool(self.job, q);
-        self.job.bed_from_part.inverse() * Point::from(bed_from_tool.translation.vector)
+        self.job.part_from_tool(q) * Point::origin()
     }
 }
 

@@ -3,7 +3,7 @@
 //! Rows belong to vertices. What the arm does between two of them the controller decides: joints turn
 //! evenly, or the TCP runs in a line (of the part's next point, where the cell sets a tool per point).
 
-use super::place::{self, Course, Turn};
+use super::place::{Course, Turn};
 use super::set_tool;
 use crate::cell::{Interpolation, Job, LinearMove};
 use crate::kinematics::Posture;
@@ -24,7 +24,7 @@ impl<'a> Rows<'a> {
     pub(super) fn new(job: &'a Job, strand: usize, rows: &[Vec<f64>]) -> Option<Self> {
         let stations = stations(&job.strands[strand].points);
         let rows: Vec<Posture> = rows.iter().map(|row| Posture::new(row)).collect();
-        let poses = rows.iter().map(|row| place::bed_from_tool(job, row)).collect();
+        let poses = rows.iter().map(|row| job.cell.bed_from_tool(row)).collect();
         (rows.len() == stations.len() && rows.len() > 1).then_some(Self {
             job,
             rows,
@@ -43,11 +43,7 @@ impl<'a> Rows<'a> {
     /// Posture with all joints turning evenly.
     pub(super) fn joint(&self, at_m: f64) -> Posture {
         let (k, share) = self.leg(at_m);
-        let mut q = self.rows[k - 1];
-        for (value, target) in q.iter_mut().zip(self.rows[k].iter()) {
-            *value = if share == 1.0 { *target } else { *value + (target - *value) * share };
-        }
-        q
+        self.rows[k - 1].toward(&self.rows[k], share)
     }
 
     /// Nozzle in bed axes with the controller moving in lines.
@@ -82,7 +78,7 @@ impl<'a> Rows<'a> {
         let [a, b, middle] = [
             &self.poses[row - 1],
             &self.poses[row],
-            &place::bed_from_tool(self.job, &super::measure::half_way(from, to)),
+            &self.job.cell.bed_from_tool(&from.toward(to, 0.5)),
         ]
         .map(|pose| pose.translation.vector);
         let off_m = (middle - a.lerp(&b, 0.5)).norm();

@@ -132,7 +132,7 @@ fn next_to(leans: &[[f64; 2]], a: usize, b: usize) -> bool {
 
 /// The one spin a machine without rotation can have: that of its tool about the bed's x.
 fn cartesian_spin(job: &Job) -> f64 {
-    let bed_from_tool = place::bed_from_tool(job, &job.cell.home);
+    let bed_from_tool = job.cell.bed_from_tool(&job.cell.home);
     let nozzle = bed_from_tool * nalgebra::Vector3::z();
     let unspun = crate::pose::from_z_axis(
         bed_from_tool.translation.vector.into(),
@@ -191,7 +191,8 @@ fn rung(course: &Course<'_>, sample: usize, before: usize, fan: &Fan) -> Rung {
     for (cell, turn) in fan.turns.iter().enumerate() {
         starts.push(candidates.len());
         let Some(pose) = course.pose(place, turn) else { continue };
-        place::solve(course.job, &pose, turn.0[Turn::ELBOW], Some(home), &mut solutions);
+        let (arm, elbow_rad) = (&course.job.cell.robot.arm, turn.0[Turn::ELBOW]);
+        place::solve(arm, course.job, &pose, elbow_rad, Some(home), &mut solutions);
         candidates.extend(solutions.iter().map(|solution| Candidate {
             q: solution.q,
             branch: solution.branch,

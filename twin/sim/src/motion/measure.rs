@@ -1,6 +1,6 @@
 //! What is measured of the motion along a strand.
 
-use crate::kinematics::{Nearness, Posture};
+use crate::kinematics::Nearness;
 
 /// What the arm does along one strand, at its worst, as a practitioner reads it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,13 +103,4 @@ impl StrandMotion {
         worst.deviation_joint_m = self.deviation_joint_m.max(other.deviation_joint_m);
         worst
     }
-}
-
-/// The posture half way between two, all joints turning evenly.
-pub(super) fn half_way(from: &Posture, to: &Posture) -> Posture {
-    let mut middle = *from;
-    for (value, other) in middle.iter_mut().zip(to.iter()) {
-        *value = (*value + other) / 2.0;
-    }
-    middle
 }

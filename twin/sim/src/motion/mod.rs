@@ -49,7 +49,7 @@ use crate::cell::{Job, Step};
 use crate::clearance::Bodies;
 use crate::deposit::Deposit;
 use crate::finding::Phase;
-use crate::kinematics::{Arm, Coverage, IkOptions, Posture, Solution};
+use crate::kinematics::{Arm, Posture, Solution};
 use crate::pose::{self, Point, Pose, Vector};
 use crate::toolpath::{Path, Sample};
 
@@ -273,8 +273,8 @@ fn solve(
     elbow_rad: f64,
     seed: Option<&[f64]>,
     out: &mut Vec<Solution>,
-) -> Coverage {
-    solve_with(&job.cell.robot.arm, job, point, nozzle, [spin_rad, elbow_rad], seed, out)
+) {
+    solve_with(&job.cell.robot.arm, job, point, nozzle, [spin_rad, elbow_rad], seed, out);
 }
 
 /// The same for another arm in its place.
@@ -286,13 +286,7 @@ fn solve_with(
     [spin_rad, elbow_rad]: [f64; 2],
     seed: Option<&[f64]>,
     out: &mut Vec<Solution>,
-) -> Coverage {
-    let target = job.cell.world_from_tip(&bed_from_tool(job, point, nozzle, spin_rad));
-    let coverage = arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
-    // A machine that cannot turn answers for the place alone.
-    out.retain(|solution| solution.rotation_error_rad <= ORIENTATION_RAD);
-    coverage
+) {
+    let target = bed_from_tool(job, point, nozzle, spin_rad);
+    place::solve(arm, job, &target, elbow_rad, seed, out);
 }
-
-/// Orientation of the nozzle is kept to this, rad: far below what a print would show.
-const ORIENTATION_RAD: f64 = 1e-3;

@@ -7,7 +7,7 @@ use nalgebra::UnitQuaternion;
 use super::cost::Costs;
 use super::tilt;
 use crate::cell::{Job, LinearMove, Orientation};
-use crate::kinematics::{IkOptions, Posture, Solution};
+use crate::kinematics::{Arm, IkOptions, Posture, Solution};
 use crate::pose::{Pose, Vector, from_z_axis};
 use crate::toolpath::{Path, Sample};
 
@@ -107,14 +107,25 @@ impl<'a> Course<'a> {
         seed: &Posture,
         solutions: &mut Vec<Solution>,
     ) -> Option<Solution> {
-        solve(self.job, bed_from_tool, turn.0[Turn::ELBOW], Some(seed), solutions);
+        solve(
+            &self.job.cell.robot.arm,
+            self.job,
+            bed_from_tool,
+            turn.0[Turn::ELBOW],
+            Some(seed),
+            solutions,
+        );
         let travel = |solution: &Solution| self.costs.travel(seed, &solution.q);
         solutions.iter().min_by(|a, b| travel(a).total_cmp(&travel(b))).copied()
     }
 }
 
-/// All postures that put the nozzle at `bed_from_tool`.
+/// Orientation of the nozzle is kept to this, rad: far below what a print would show.
+const ORIENTATION_RAD: f64 = 1e-3;
+
+/// All postures of an arm in the cell that put the nozzle at `bed_from_tool`.
 pub(super) fn solve(
+    arm: &Arm,
     job: &Job,
     bed_from_tool: &Pose,
     elbow_rad: f64,
@@ -122,15 +133,9 @@ pub(super) fn solve(
     out: &mut Vec<Solution>,
 ) {
     let target = job.cell.world_from_tip(bed_from_tool);
-    job.cell.robot.arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
+    arm.inverse(&target, &IkOptions { seed, elbow_rad }, out);
     // A machine that cannot turn answers for the place alone.
-    out.retain(|solution| solution.rotation_error_rad <= super::ORIENTATION_RAD);
-}
-
-/// Pose of the nozzle in bed axes in posture `q`.
-pub(super) fn bed_from_tool(job: &Job, q: &[f64]) -> Pose {
-    let world_from_tip = job.cell.robot.arm.chain.forward(q);
-    job.cell.world_from_bed(&world_from_tip).inverse() * job.cell.world_from_tool(&world_from_tip)
+    out.retain(|solution| solution.rotation_error_rad <= ORIENTATION_RAD);
 }
 
 /// The place at share `t` of the way from one sample to the next.

@@ -124,7 +124,7 @@ fn refined_turns_are_cheaper_and_off_the_fan() {
     assert!(fine.iter().zip(&coarse).all(|(a, b)| a.branch == b.branch));
     for post in &fine {
         let pose = course.pose(&paths[0].samples[post.sample], &post.turn).expect("within");
-        let got = place::bed_from_tool(&job, &post.q);
+        let got = job.cell.bed_from_tool(&post.q);
         assert!((got.translation.vector - pose.translation.vector).norm() < 1e-9);
     }
 }
@@ -158,7 +158,7 @@ fn what_comes_too_near_is_shunned() {
     let paths = toolpath::paths(&job);
     let ladder = &ladder::rungs_of(&job, &paths, &[0])[0];
     let home = Posture::new(&job.cell.home);
-    let side = |q: &Posture| (place::bed_from_tool(&job, q) * Vector::x()).normalize();
+    let side = |q: &Posture| (job.cell.bed_from_tool(q) * Vector::x()).normalize();
     let plain = strand::postures(&job, &paths[0], ladder, &home);
     let bad = side(&plain.q[0].expect("reached"));
     let looks = AtomicUsize::new(0);
@@ -203,7 +203,7 @@ fn fast_turns_are_followed_closely_or_told() {
         let told = findings.sorted().iter().any(|f| matches!(f.code, Code::R101 | Code::R104));
         assert!(told || leg.moments.len() > paths[0].samples.len(), "{cell}");
         for pair in leg.moments.windows(2) {
-            let middle = measure::half_way(&pair[0].q, &pair[1].q);
+            let middle = pair[0].q.toward(&pair[1].q, 0.5);
             let at_m = (pair[0].at_m + pair[1].at_m) / 2.0;
             let (_, sample) = place::sample_at(&paths[0].samples, at_m);
             let off_m = (nozzle(&job, &middle).0 - sample.point).norm();

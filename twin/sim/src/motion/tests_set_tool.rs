@@ -69,7 +69,7 @@ fn the_cell_leaves_the_strand_and_says_so() {
     let leg = prints(&motion).next().expect("one print");
     assert!(leg.unreached.is_empty());
     let ends: Vec<Pose> =
-        [0, leg.moments.len() - 1].map(|k| place::bed_from_tool(&job, &leg.moments[k].q)).into();
+        [0, leg.moments.len() - 1].map(|k| job.cell.bed_from_tool(&leg.moments[k].q)).into();
     for moment in &leg.moments {
         let wanted = nozzle_at(&ends[0], &ends[1], moment.at_m / paths[0].length_m);
         let (point, _) = nozzle(&job, &moment.q);

@@ -164,15 +164,12 @@ impl<'a> Steps<'a> {
     fn half(&mut self, from: (&Sample, &Stand), to: (&Sample, &Stand), halvings: usize) -> bool {
         let sample = place::sample_between(from.0, to.0, 0.5);
         let turn = from.1.turn.mix(&to.1.turn, 0.5);
-        let mut q = from.1.q;
-        for (value, other) in q.iter_mut().zip(to.1.q.iter()) {
-            *value = (*value + other) / 2.0;
-        }
+        let q = from.1.q.toward(&to.1.q, 0.5);
         let pose = match self.bowed {
             Some(bowed) => bowed.at(self.course.job, &sample),
             None => self.course.pose_within(&sample, &turn),
         };
-        let (off_m, off_rad) = off(&place::bed_from_tool(self.course.job, &q), &pose);
+        let (off_m, off_rad) = off(&self.course.job.cell.bed_from_tool(&q), &pose);
         if off_m <= EVEN_M && off_rad <= EVEN_RAD {
             return true;
         }

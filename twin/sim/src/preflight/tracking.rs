@@ -6,7 +6,7 @@ use crate::dynamics::{Timed, differentiate};
 use crate::finding::Phase;
 use crate::kinematics::Posture;
 use crate::motion::{Leg, Motion};
-use crate::pose::{Point, Pose, Vector};
+use crate::pose::{Point, Pose};
 
 /// How the arm follows the end of the transit that moves its joints fastest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +66,7 @@ fn watched(job: &Job) -> Watched {
     let orifice = |pose: &Pose| Point::from(pose.translation.vector);
     match job.cell.mode {
         Mode::ToolOnFlange => Watched::OnTip(orifice(&job.cell.tool_pose)),
-        Mode::BedOnFlange => Watched::AtRest(orifice(&job.cell.tool_pose) + Vector::zeros()),
+        Mode::BedOnFlange => Watched::AtRest(orifice(&job.cell.tool_pose)),
     }
 }
 
@@ -88,11 +88,8 @@ fn planned(leg: &Leg) -> Vec<Timed> {
         let n_steps = ((pair[1].time_s - pair[0].time_s) / 0.02).ceil().clamp(1.0, 200.0) as usize;
         for k in 0..n_steps {
             let share = k as f64 / n_steps as f64;
-            let mut q = pair[0].q;
-            for (value, target) in q.iter_mut().zip(pair[1].q.iter()) {
-                *value += (target - *value) * share;
-            }
-            samples.push((pair[0].time_s + (pair[1].time_s - pair[0].time_s) * share, q));
+            let time_s = pair[0].time_s + (pair[1].time_s - pair[0].time_s) * share;
+            samples.push((time_s, pair[0].q.toward(&pair[1].q, share)));
         }
     }
     if let Some(last) = leg.moments.last() {

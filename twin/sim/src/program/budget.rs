@@ -1,6 +1,5 @@
 //! E508: what errors of calibration do to the place of the nozzle relative to the part.
 
-use super::part_from_tool;
 use crate::cell::{Form, Job, Join, Mode, On};
 use crate::finding::{Check, Code, Findings, Phase, Site, Words};
 use crate::interval::Interval;
@@ -123,7 +122,7 @@ pub fn budget(
         let moments = &prints[strand]?.moments;
         let k = moments.partition_point(|moment| moment.at_m < at_m - 1e-12);
         let moment = moments.get(k).or(moments.last())?;
-        Some(part_from_tool(job, &moment.q).rotation)
+        Some(job.part_from_tool(&moment.q).rotation)
     };
     let mut meets = vec![false; budgets.len()];
     for meeting in meetings {

@@ -78,7 +78,7 @@ pub fn hoses(job: &Job, motion: &Motion) -> Vec<HoseUse> {
                     at_m: moment.at_m,
                     point: Point::origin(),
                 };
-                walk.look(&between(&before.0, &moment.q, share), &at, &mut tracks);
+                walk.look(&before.0.toward(&moment.q, share), &at, &mut tracks);
             }
             before = (moment.q, moment.time_s);
             first = 1; // home was looked at
@@ -224,12 +224,4 @@ fn world_from_end(job: &Job, world_from_tip: &Pose) -> Pose {
 
 fn world_from_link(hose: &Hose, poses: &[Pose]) -> Pose {
     hose.carrier.map_or_else(Pose::identity, |joint| poses[joint]) * hose.carrier_from_link
-}
-
-fn between(from: &Posture, to: &Posture, share: f64) -> Posture {
-    let mut q = *from;
-    for (value, target) in q.iter_mut().zip(to.iter()) {
-        *value += (target - *value) * share;
-    }
-    q
 }

@@ -22,19 +22,11 @@ pub use speed::{SpeedExtreme, StrandSpeed, judge_speeds, speeds};
 
 use crate::cell::Job;
 use crate::finding::Phase;
-use crate::pose::{Point, Pose};
-
-/// Tool axes in part axes in posture `q`.
-fn part_from_tool(job: &Job, q: &[f64]) -> Pose {
-    let cell = &job.cell;
-    let world_from_tip = cell.robot.arm.chain.forward(q);
-    let world_from_part = cell.world_from_bed(&world_from_tip) * job.bed_from_part;
-    world_from_part.inverse() * cell.world_from_tool(&world_from_tip)
-}
+use crate::pose::Point;
 
 /// Place of the orifice in part axes in posture `q`.
 fn orifice(job: &Job, q: &[f64]) -> Point {
-    part_from_tool(job, q) * Point::origin()
+    job.part_from_tool(q) * Point::origin()
 }
 
 /// Where in the program something happens, in words.

@@ -156,11 +156,7 @@ fn marks(job: &Job, path: &Path, leg: &Leg) -> (Vec<Mark>, f64) {
         let point = orifice(job, &moment.q);
         let asked_m_s = strand.asked(moment.at_m).0;
         if let Some((last, last_point)) = before {
-            let mut middle = last.q;
-            for (value, other) in middle.iter_mut().zip(moment.q.iter()) {
-                *value = (*value + other) / 2.0;
-            }
-            let middle = orifice(job, &middle);
+            let middle = orifice(job, &last.q.toward(&moment.q, 0.5));
             let step_m = (middle - last_point).norm() + (point - middle).norm();
             way_m += step_m;
             asked_s += step_m / strand.asked(last.at_m).0;

@@ -136,7 +136,7 @@ impl Way {
         let first = self.way.first()?;
         let blocked = first_step(ask, on_strand, first, stands_m).err()?;
         let share = if stands_m.is_some() { blocked.share } else { 1.0 };
-        let q = super::metric::between(on_strand, first, share);
+        let q = on_strand.toward(first, share);
         Some(Reason::of_end(End::Strand, blocked, q, ask.need_m))
     }
 

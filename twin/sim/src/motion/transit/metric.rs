@@ -74,15 +74,6 @@ impl Metric {
     }
 }
 
-/// The posture at `share` of the straight move.
-pub(super) fn between(from: &Posture, to: &Posture, share: f64) -> Posture {
-    let mut q = *from;
-    for (value, target) in q.iter_mut().zip(to.iter()) {
-        *value += (target - *value) * share;
-    }
-    q
-}
-
 /// A box in joint space.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {

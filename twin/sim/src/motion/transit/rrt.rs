@@ -8,7 +8,7 @@
 //! costs thousands.
 
 use super::ask::{Ask, Tally};
-use super::metric::{Metric, Room, between};
+use super::metric::{Metric, Room};
 use super::random::Random;
 use crate::kinematics::Posture;
 
@@ -180,20 +180,20 @@ impl Search<'_, '_> {
         }
         let share = (STEP_M / length_m).min(1.0);
         let arrives = share >= 1.0;
-        let to = if arrives { *target } else { between(&from, target, share) };
+        let to = if arrives { *target } else { from.toward(target, share) };
         let Err(blocked) = self.ask.clear(&from, &to) else {
             let node = tree.push(to, near);
             return if arrives { Grown::There(node) } else { Grown::Nearer(node) };
         };
         let kept = share * KEPT * blocked.share.clamp(0.0, 1.0);
-        let at = between(&from, &to, blocked.share);
+        let at = from.toward(&to, blocked.share);
         let away_m = self.metric.length(&tree.root(), &at);
         tree.blocked.note(blocked, at, away_m);
         if kept * length_m < LEAST_M {
             return Grown::Stuck;
         }
         // What lies before the first obstacle found need not be clear: it is asked again.
-        let before = between(&from, target, kept);
+        let before = from.toward(target, kept);
         match self.ask.clear(&from, &before) {
             Ok(()) => Grown::Before(tree.push(before, near)),
             Err(_) => Grown::Stuck,
@@ -218,7 +218,7 @@ impl Search<'_, '_> {
         let spread = 0.5 * 0.02_f64.powf(self.random.share());
         let (middle, moves) = if kind < 2.0 / 3.0 {
             let along = self.random.within(-0.3, 1.3).clamp(0.0, 1.0);
-            (between(&ends[0], &ends[1], along), 1.0)
+            (ends[0].toward(&ends[1], along), 1.0)
         } else {
             let node = (self.random.share() * tree.nodes.len() as f64) as usize;
             (tree.nodes[node.min(tree.nodes.len() - 1)].q, self.random.within(0.1, 0.6))

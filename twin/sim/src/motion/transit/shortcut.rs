@@ -1,7 +1,7 @@
 //! A way made shorter and its corners rounded; every move of it stays one that was found clear.
 
 use super::ask::Ask;
-use super::metric::{Metric, between};
+use super::metric::Metric;
 use super::random::Random;
 use crate::kinematics::Posture;
 
@@ -65,7 +65,7 @@ fn place(way: &[Posture], lengths: &[f64], at_m: f64) -> (usize, Posture) {
     for (k, &length_m) in lengths.iter().enumerate() {
         if rest_m <= length_m || k + 1 == lengths.len() {
             let share = if length_m > 0.0 { (rest_m / length_m).min(1.0) } else { 0.0 };
-            return (k, between(&way[k], &way[k + 1], share));
+            return (k, way[k].toward(&way[k + 1], share));
         }
         rest_m -= length_m;
     }
@@ -94,8 +94,8 @@ pub(super) fn round(ask: &mut Ask<'_>, metric: &Metric, way: &[Posture]) -> Vec<
         }
         let blend = [0.5, 0.25, 0.1, 0.03].into_iter().find_map(|width| {
             let width_m = width * in_m.min(out_m);
-            let from = between(&at, &before, width_m / in_m);
-            let to = between(&at, &after, width_m / out_m);
+            let from = at.toward(&before, width_m / in_m);
+            let to = at.toward(&after, width_m / out_m);
             let chords = parabola(&from, &at, &to);
             ask.way(&chords).is_ok().then_some(chords)
         });
@@ -113,7 +113,7 @@ pub(super) fn round(ask: &mut Ask<'_>, metric: &Metric, way: &[Posture]) -> Vec<
 fn parabola(from: &Posture, corner: &Posture, to: &Posture) -> Vec<Posture> {
     let at = |k: usize| {
         let t = k as f64 / CHORDS as f64;
-        between(&between(from, corner, t), &between(corner, to, t), t)
+        from.toward(corner, t).toward(&corner.toward(to, t), t)
     };
     (0..=CHORDS).map(at).collect()
 }

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::arena::Arena;
 use super::ask::{Ask, Free};
-use super::metric::{Metric, Room, between};
+use super::metric::{Metric, Room};
 use super::random::Random;
 use super::rrt::{Search, Tree};
 use super::*;
@@ -100,7 +100,7 @@ fn solve(chain: &Chain, from: &Posture, to: &Posture, free: &Free<'_>, seed: u64
 fn stays_clear(way: &[Posture], free: &Free<'_>, need_m: f64) {
     for pair in way.windows(2) {
         for k in 0..=100 {
-            let q = between(&pair[0], &pair[1], f64::from(k) / 100.0);
+            let q = pair[0].toward(&pair[1], f64::from(k) / 100.0);
             assert_eq!(free(&q, &q, need_m), Ok(()), "at {:?}", &q[..]);
         }
     }
@@ -307,7 +307,7 @@ mod discs {
             }
             let mut share = 0.0;
             loop {
-                let (clearance_m, disc) = clearance(discs, &between(from, to, share));
+                let (clearance_m, disc) = clearance(discs, &from.toward(to, share));
                 if clearance_m < need_m {
                     let pair = ["link".to_owned(), format!("disc {disc}")];
                     return Err(Blocked { share, clearance_m, pair });
@@ -510,7 +510,7 @@ fn what_is_over_the_nozzle_is_left_aside() {
         let (job, middle) = (&job, place.point + Vector::z() * over_m);
         move |from: &Posture, to: &Posture, need_m: f64| {
             for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
-                let (tip, _) = between::nozzle_at(job, &metric::between(from, to, share));
+                let (tip, _) = between::nozzle_at(job, &from.toward(to, share));
                 let clearance_m = (tip - middle).norm() - radius_m;
                 if clearance_m < need_m {
                     let pair = ["nozzle".to_owned(), "ball".to_owned()];

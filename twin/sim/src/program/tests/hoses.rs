@@ -1,4 +1,5 @@
 use super::*;
+use crate::pose::Pose;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A job in the cell of the KR 6 with one hose from link 3 to above the tool.
