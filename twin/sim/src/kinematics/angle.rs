@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
 
+use super::arctangent::arctangent;
+
 /// An angle, rad, in (−π, π] where it was made from sine and cosine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Angle {
@@ -22,7 +24,7 @@ impl Angle {
     /// Direction of `(cos, sin)`, of any length; zero where both are.
     pub(super) fn towards(sin: f64, cos: f64) -> Self {
         let (sin, cos) = unit(sin, cos);
-        Self { rad: sin.atan2(cos), sin, cos }
+        Self { rad: arctangent(sin, cos), sin, cos }
     }
 
     /// The other way round.

@@ -1,5 +1,7 @@
 //! What every candidate of a closed form must pass on its way to the solutions.
 
+use std::f64::consts::TAU;
+
 use super::arm::{IkOptions, Solution};
 use super::branch::Branch;
 use super::canonical::JointMap;
@@ -7,7 +9,7 @@ use super::chain::Chain;
 use super::planar::Play;
 use super::polish::{POSITION_TOLERANCE_M, ROTATION_TOLERANCE_RAD, polish, pose_error};
 use super::posture::{MAX_DOF, Posture};
-use super::turns::{Turns, all_turns, copies, same_turned};
+use super::turns::{Turns, all_turns, same_turned};
 use crate::pose::Pose;
 
 /// A closed form that leaves less than this, m and rad, is not polished.
@@ -41,6 +43,7 @@ pub(super) struct Gate<'a> {
 
 impl Gate<'_> {
     /// Values of joint `index` at canonical angle `theta`; `None` where the limits allow none.
+    #[inline]
     pub(super) fn turns(&self, index: usize, map: &JointMap, theta: f64) -> Option<Turns> {
         let value = map.q(theta);
         if !self.exact {
@@ -100,12 +103,32 @@ impl Gate<'_> {
         };
         // Branches that are far apart need no comparing, nor do the copies of different ones.
         let met = self.close && self.out.iter().any(twin);
-        let (position_error_m, rotation_error_rad) = (error.m, error.rad);
         let out = &mut *self.out;
-        copies(axes, turns, |q| {
-            if !met || out.iter().all(|known| known.q.distance(&q) > same) {
-                out.push(Solution { q, branch, position_error_m, rotation_error_rad });
+        let known = out.len();
+        let mut q = Posture::zeros(turns.len());
+        for (value, turns) in q.iter_mut().zip(turns) {
+            *value = turns.first;
+        }
+        out.push(Solution { q, branch, position_error_m: error.m, rotation_error_rad: error.rad });
+        // Each joint repeats all there is so far, a turn further.
+        for (index, turns) in turns.iter().enumerate().filter(|(_, turns)| turns.more > 0) {
+            let block = known..out.len();
+            for turn in 1..=turns.more {
+                let further = (turns.first + f64::from(turn) * TAU).min(axes[index].upper);
+                for copied in block.clone() {
+                    let mut solution = out[copied];
+                    solution.q[index] = further;
+                    out.push(solution);
+                }
             }
-        });
+        }
+        if met {
+            let added = out.split_off(known);
+            for solution in added {
+                if out[..known].iter().all(|known| known.q.distance(&solution.q) > same) {
+                    out.push(solution);
+                }
+            }
+        }
     }
 }

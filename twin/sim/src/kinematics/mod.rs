@@ -6,6 +6,7 @@
 //! `vx vy vz wx wy wz` at the tip in base axes.
 
 mod angle;
+mod arctangent;
 mod arm;
 mod branch;
 mod canonical;
@@ -48,4 +49,3 @@ pub use reach::{levers, ranges};
 pub use recognise::recognise;
 pub use singularity::{Nearness, condition_number, limit_margins, nearness};
 pub use srs::{Srs, SrsParameters};
-pub use turns::wraps;

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::angle::{Angle, unit};
+use super::arctangent::arctangent;
 
 /// What a closed form allows for where its two roots meet or just miss each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +100,7 @@ pub(super) fn bend(reach: f64, first: f64, second: f64, play: Play) -> Angle {
         (outer, inner) = unit(outer.max(0.5 * play.spread), inner.max(0.5 * play.spread));
     }
     Angle {
-        rad: 2.0 * outer.atan2(inner),
+        rad: 2.0 * arctangent(outer, inner),
         sin: 2.0 * outer * inner,
         cos: (inner - outer) * (inner + outer),
     }

@@ -1,9 +1,9 @@
-//! Copies of a joint value a full turn apart, and of a joint vector by them.
+//! Copies of a joint value a full turn apart.
 
 use std::f64::consts::{PI, TAU};
 
 use super::chain::{Chain, ChainAxis};
-use super::posture::{MAX_DOF, Posture};
+use super::posture::MAX_DOF;
 
 /// How far past a limit rounding may put a solution; it is then set on the limit.
 const LIMIT_SLACK: f64 = 1e-10;
@@ -26,13 +26,22 @@ impl Turns {
 
     /// Copies of `value` within the limits of `axis`; `None` where there are none. A joint with an open
     /// end has endless ones: then the one nearest to `near` (else to zero).
+    #[inline]
     pub(super) fn within(axis: &ChainAxis, value: f64, near: Option<f64>) -> Option<Self> {
         let (lower, upper) = (axis.lower - LIMIT_SLACK, axis.upper + LIMIT_SLACK);
         let inside = value >= lower && value <= upper;
         // The common cases first, without division.
         let found = if !axis.periodic || (inside && value - TAU < lower && value + TAU > upper) {
             inside.then_some(Self::only(value))
-        } else if upper - lower < 3.0 * TAU && lower.abs() < 9.0 * TAU && value.abs() < 9.0 * TAU {
+        } else {
+            Self::turned(lower, upper, value, near)
+        };
+        let found = found?;
+        Some(Self { first: found.first.max(axis.lower).min(axis.upper), ..found })
+    }
+
+    fn turned(lower: f64, upper: f64, value: f64, near: Option<f64>) -> Option<Self> {
+        if upper - lower < 3.0 * TAU && lower.abs() < 9.0 * TAU && value.abs() < 9.0 * TAU {
             Self::counted(lower, upper, value)
         } else if lower.is_finite() && upper.is_finite() {
             let first = ((lower - value) / TAU).ceil();
@@ -42,9 +51,7 @@ impl Turns {
             (last >= first).then_some(Self { first: value + first * TAU, more })
         } else {
             Self::nearest(lower, upper, value, near.unwrap_or(0.0))
-        };
-        let found = found?;
-        Some(Self { first: found.first.max(axis.lower).min(axis.upper), ..found })
+        }
     }
 
     /// The one of endless copies that lies next to `near`.
@@ -76,29 +83,6 @@ impl Turns {
     }
 }
 
-/// Calls `each` with every joint vector that takes each entry from its turns.
-pub(super) fn copies(axes: &[ChainAxis], turns: &[Turns], mut each: impl FnMut(Posture)) {
-    let mut copy = Posture::zeros(turns.len());
-    for (entry, turns) in copy.iter_mut().zip(turns) {
-        *entry = turns.first;
-    }
-    let mut counts = [0_u32; MAX_DOF];
-    loop {
-        each(copy);
-        // Counts up like an odometer.
-        let Some(index) = (0..turns.len()).find(|&index| counts[index] < turns[index].more) else {
-            return;
-        };
-        counts[..index].fill(0);
-        counts[index] += 1;
-        for (entry, turns) in copy[..index].iter_mut().zip(turns) {
-            *entry = turns.first;
-        }
-        let further = turns[index].first + f64::from(counts[index]) * TAU;
-        copy[index] = further.min(axes[index].upper);
-    }
-}
-
 /// Turns of every entry of `q`; `None` where some joint cannot be brought within its limits.
 pub(super) fn all_turns(
     chain: &Chain,
@@ -111,19 +95,6 @@ pub(super) fn all_turns(
         turns[index] = Turns::within(axis, value, near)?;
     }
     Some(turns)
-}
-
-/// Calls `each` with every copy of `q` within limits that differs by full turns of its periodic
-/// joints only, `q` itself included where it is within; none where some joint cannot be brought
-/// within its limits.
-///
-/// A joint with an open end has endless copies: only the one nearest to `near` (else to zero)
-/// is given for it.
-pub fn wraps(chain: &Chain, q: &[f64], near: Option<&[f64]>, each: impl FnMut(Posture)) {
-    if let Some(turns) = all_turns(chain, q, near) {
-        let dof = chain.dof().min(q.len()).min(MAX_DOF);
-        copies(chain.axes(), &turns[..dof], each);
-    }
 }
 
 /// Whether two values of a joint are nearer than `same`, full turns aside.

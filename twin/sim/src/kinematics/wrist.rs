@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use super::angle::{Angle, half_turn, unit};
+use super::angle::{Angle, half_turn};
+use super::arctangent::arctangent;
 
 /// Below this sine the outer axes count as one line, rad; smaller than the tolerance on solutions.
 const ALIGNED_RAD: f64 = 5e-10;
@@ -40,14 +41,14 @@ pub(super) fn zyz(m: &Matrix3<f64>, free: f64) -> Zyz {
         + square(rest[(2, 0)] + b.sin * c.cos)
         + square(rest[(2, 1)] - b.sin * c.sin);
     let second = [half_turn(a.rad), -b.rad, half_turn(c.rad)];
-    Zyz { angles: [[a.rad, b.rad, c.rad], second], error_rad: squares.sqrt() + b_off + c_off }
+    let error_rad = squares.sqrt() + 2.0 * (b_off + c_off);
+    Zyz { angles: [[a.rad, b.rad, c.rad], second], error_rad }
 }
 
-/// The angle, and by how much its sine and cosine missed length one.
+/// The angle, its sine and cosine as they come, and by how much these miss length one.
 fn rotated(sin: f64, cos: f64) -> (f64, Angle) {
     let miss = (sin * sin + cos * cos - 1.0).abs();
-    let (unit_sin, unit_cos) = unit(sin, cos);
-    (miss, Angle { rad: sin.atan2(cos), sin: unit_sin, cos: unit_cos })
+    (miss, Angle { rad: arctangent(sin, cos), sin, cos })
 }
 
 fn square(x: f64) -> f64 {
