@@ -4,15 +4,17 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::tool_file::ShapeFile;
+use crate::tool_file::{LampFile, ShapeFile, lamps};
 use crate::{Diagnostic, Source};
 
 pub(crate) mod checks;
 mod equipment;
+mod limits;
 #[cfg(test)]
 mod tests;
 
 pub use equipment::{CalibrationFile, CarriedFile, ControllerFile, HoseFile, LinearMove};
+pub use limits::LimitsFile;
 
 use checks::{Checks, Place, Rule, parse_checked};
 
@@ -70,6 +72,9 @@ pub struct CellFile {
     pub extruder: ExtruderFile,
     /// Default limits.
     pub limits: LimitsFile,
+    /// Lamps that stand in the room, in world axes.
+    #[serde(default)]
+    pub lamp: Vec<LampFile>,
     /// Names of outputs that a job may switch.
     #[serde(default)]
     pub io: Vec<String>,
@@ -137,60 +142,17 @@ pub struct ExtruderFile {
     /// Volume flows that the extruder can be switched to, mm³/s; empty: any.
     #[serde(default)]
     pub levels_mm3_s: Vec<f64>,
+    /// Time in which the flow comes within 1/e of what is told, s: nominal, low, high; not given:
+    /// nobody knows, and it is taken as at once.
+    pub lag_s: Option<[f64; 3]>,
+    /// Volume between the mixer of a two-part resin and the orifice, mm³.
+    pub mixer_mm3: Option<f64>,
     /// Approach and retract for jobs that ask for none, mm.
     pub approach_mm: f64,
     /// Speed of moves without extrusion, mm/s.
     pub travel_mm_s: f64,
     /// Force of the nozzle on the node it lands on, N: nominal, low, high.
     pub nozzle_force_n: [f64; 3],
-}
-
-/// Limits of acceptance. Every one is positive.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LimitsFile {
-    /// Least clearance of bodies that may not touch, mm.
-    pub clearance_mm: f64,
-    /// Nozzle tip and deposit may touch within this distance of a node they share, mm.
-    pub touch_zone_mm: f64,
-    /// Largest miss of a node at landing, mm.
-    pub node_miss_mm: f64,
-    /// Largest sag of a strand, mm.
-    pub sag_mm: f64,
-    /// Least distance of a joint to its stop, degrees or mm.
-    pub joint_margin_deg: f64,
-    /// Largest share of a joint's speed limit, percent.
-    pub joint_speed_percent: f64,
-    /// Condition number of the Jacobian (length scale 1 m) that warns, and that stops.
-    pub condition_number: [f64; 2],
-    /// Least wrist angle from its singularity, degrees.
-    pub wrist_deg: f64,
-    /// Largest distance from the orifice at which the strand must be set, mm.
-    pub set_distance_mm: f64,
-    /// Largest deflection of the finished part under its loads, mm.
-    pub deflection_mm: f64,
-    /// Share of a strand's radius left uncured that warns, and that stops.
-    pub uncured_share: [f64; 2],
-    /// Largest difference of the TCP's speed from the asked one, percent.
-    #[serde(default = "ten_percent")]
-    pub speed_band_percent: f64,
-    /// Largest share of a joint's torque limit, percent.
-    #[serde(default = "all_of_it")]
-    pub torque_percent: f64,
-    /// Largest share of a joint's acceleration limit, percent.
-    #[serde(default = "all_of_it")]
-    pub acceleration_percent: f64,
-    /// Longest the program may take, s; not given: as long as it takes.
-    pub cycle_time_s: Option<f64>,
-}
-
-/// A tenth of the speed is a twentieth of the bead's diameter.
-fn ten_percent() -> f64 {
-    10.0
-}
-
-fn all_of_it() -> f64 {
-    100.0
 }
 
 /// Reads a cell; refuses missing and impossible values, each with its place.
@@ -229,7 +191,8 @@ pub fn parse(source: &Source) -> Result<CellFile, Vec<Diagnostic>> {
             checks.error(linear, says.to_owned());
         }
         extruder(cell.get("extruder"), checks);
-        limits(cell.get("limits"), checks);
+        lamps(cell, checks);
+        limits::check(cell.get("limits"), checks);
     })
 }
 
@@ -279,34 +242,6 @@ fn extruder(extruder: Option<Place<'_>>, checks: &mut Checks) {
     checks.interval(extruder.get("swell"), Rule::Positive);
     checks.interval(extruder.get("nozzle_force_n"), Rule::NotNegative);
     checks.numbers(extruder.get("levels_mm3_s"), Rule::Positive);
-}
-
-/// A score divides by the limit, so none may be zero.
-fn limits(limits: Option<Place<'_>>, checks: &mut Checks) {
-    let Some(limits) = limits else { return };
-    for limit in limits.entries() {
-        let rule = match limit.name() {
-            "joint_speed_percent"
-            | "torque_percent"
-            | "acceleration_percent"
-            | "speed_band_percent" => Rule::AboveUpTo(0.0, 100.0),
-            "wrist_deg" => Rule::Between(0.0, 90.0),
-            _ => Rule::Positive,
-        };
-        checks.number(Some(limit), rule);
-    }
-    pair(limits.get("condition_number"), Rule::FromTo(1.0, 1e9), checks);
-    pair(limits.get("uncured_share"), Rule::AboveUpTo(0.0, 1.0), checks);
-}
-
-/// `[warn, stop]`, the second past the first.
-fn pair(place: Option<Place<'_>>, rule: Rule, checks: &mut Checks) {
-    checks.numbers(place, rule);
-    let Some(place) = place else { return };
-    if let Some([warns, stops]) = place.numbers().as_deref()
-        && warns > stops
-    {
-        let says = format!("the number that warns, {warns}, is above the one that stops, {stops}");
-        checks.refuse(Diagnostic::error(place.span(), says).hint("the order is [warn, stop]"));
-    }
+    checks.interval(extruder.get("lag_s"), Rule::NotNegative);
+    checks.number(extruder.get("mixer_mm3"), Rule::Positive);
 }

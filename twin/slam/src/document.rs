@@ -134,6 +134,19 @@ pub enum Interpolation {
     Joint,
 }
 
+/// Thin threads that leave the strand and come back to it in knots.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threads {
+    /// How many.
+    pub count: u32,
+    /// Diameter of one, mm.
+    pub diameter_mm: f64,
+    /// From one knot to the next, mm.
+    pub pitch_mm: f64,
+    /// Farthest from the strand's axis to theirs, mm.
+    pub sweep_mm: f64,
+}
+
 /// Process values; a strand may override any of them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Process {
@@ -149,6 +162,12 @@ pub struct Process {
     pub overrun_mm: Option<Spanned<f64>>,
     /// Rest at the end of the strand, s.
     pub dwell_s: Option<Spanned<f64>>,
+    /// Speed of a second pass with the lights on and no extrusion, mm/s.
+    pub second_pass_mm_s: Option<Spanned<f64>>,
+    /// Dose of a post-cure from all around, once all is printed, J/cm².
+    pub post_cure_j_cm2: Option<Spanned<f64>>,
+    /// Thin threads laid around the strand.
+    pub threads: Option<Threads>,
     /// Length of the straight approach, mm.
     pub approach_mm: Option<Spanned<f64>>,
     /// Length of the straight retract, mm.

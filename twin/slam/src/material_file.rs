@@ -57,6 +57,16 @@ pub enum SettingFile {
         viscosity: CrossWlf,
         /// Modulus of the rubbery plateau above the glass transition, Pa.
         plateau_modulus_pa: Number,
+        /// Specific heat and conductivity against temperature; not given: one number each.
+        heat: Option<HeatFile>,
+        /// Density against temperature, Tait.
+        tait: Option<TaitFile>,
+        /// Time in which a weld heals, `A exp(Q/(R T))`.
+        weld: Option<WeldFile>,
+        /// Surface tension of the melt, N/m.
+        surface_tension_n_m: Option<Number>,
+        /// How long the melt may wait in the nozzle, s.
+        melt_life_s: Option<Number>,
     },
     /// By light.
     Photopolymer {
@@ -76,6 +86,22 @@ pub enum SettingFile {
         cured_modulus_pa: Number,
         /// Linear shrinkage after the gel point.
         linear_shrinkage: Number,
+        /// How the degree of cure grows in the light.
+        kinetics: Option<KineticsFile>,
+        /// Heat of the whole reaction, J/kg.
+        reaction_heat_j_kg: Option<Number>,
+        /// Activation energy of the critical exposure, J/mol.
+        exposure_activation_j_mol: Option<Number>,
+        /// Skin that air keeps tacky, m.
+        tacky_skin_m: Option<Number>,
+        /// Consistency `K` of the flowing gel, Pa sⁿ.
+        consistency_pa_sn: Option<Number>,
+        /// Exponent `n` of the flowing gel.
+        flow_index: Option<Number>,
+        /// Time in which the sheared gel finds its yield stress again, s.
+        recovery_s: Option<Number>,
+        /// Surface tension, N/m.
+        surface_tension_n_m: Option<Number>,
     },
     /// By the clock, from the mixer on.
     TwoPart {
@@ -85,7 +111,89 @@ pub enum SettingFile {
         viscosity_pa_s: Number,
         /// Linear shrinkage after the gel point.
         linear_shrinkage: Number,
+        /// Time from the mixer after which it blocks what it stands in, s.
+        pot_life_s: Option<Number>,
     },
+}
+
+/// Specific heat `cp = cp0 + cp1 T` and conductivity `k = k0 + k1 T`, T in °C.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatFile {
+    /// Specific heat at 0 °C, J/(kg K).
+    pub cp0_j_kgk: f64,
+    /// Its slope, J/(kg K²).
+    pub cp1_j_kgk2: f64,
+    /// Conductivity at 0 °C, W/(m K).
+    pub k0_w_mk: f64,
+    /// Its slope, W/(m K²).
+    pub k1_w_mk2: f64,
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// Tait's equation in two ranges; letters as in the literature, SI.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TaitFile {
+    /// Transition at no pressure, K.
+    pub b5_k: f64,
+    /// Its rise with pressure, K/Pa.
+    pub b6_k_pa: f64,
+    /// Melt: specific volume at the transition m³/kg, its slope m³/(kg K), stiffness Pa, its decay 1/K.
+    pub melt: [f64; 4],
+    /// Solid: the same.
+    pub solid: [f64; 4],
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// Time in which chains cross a weld.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WeldFile {
+    /// A, s.
+    pub a_s: f64,
+    /// Q, J/mol.
+    pub q_j_mol: f64,
+    /// Low end of the time over its nominal value.
+    pub factor_low: f64,
+    /// High end of the time over its nominal value.
+    pub factor_high: f64,
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// Kamal and Sourour's law with intensity: `dα/dt = (k1 + k2 αᵐ)(α_max − α)ⁿ`, `k ∝ Iᵇ`. Its rates are fitted to
+/// the critical exposure.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KineticsFile {
+    /// m.
+    pub m: f64,
+    /// n.
+    pub n: f64,
+    /// b.
+    pub b: f64,
+    /// k2 over k1; not given: 0, a law of order n.
+    #[serde(default)]
+    pub k2_over_k1: f64,
+    /// Irradiance at which the critical exposure was measured, W/m²; not given: the strand's own.
+    pub measured_at_w_m2: Option<f64>,
+    /// Degree of cure at the gel point.
+    pub gel: f64,
+    /// Greatest degree of cure at room temperature.
+    pub max: f64,
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
 }
 
 /// A number with its range.
@@ -157,6 +265,7 @@ pub fn parse(source: &Source) -> Result<MaterialFile, Vec<Diagnostic>> {
                 checks.ranged(Some(number), rule_of(number.name()));
             }
             temperatures(law, checks);
+            coefficients(law, checks);
             if let Some(viscosity) = law.get("viscosity") {
                 cross_wlf(viscosity, law, checks);
             }
@@ -172,6 +281,7 @@ fn rule_of(key: &str) -> Rule {
         // Filled strands may grow a little along the fibre when they cool.
         "cte_per_k" => Rule::Between(-1e-3, 1e-2),
         "linear_shrinkage" => Rule::FromTo(0.0, 0.5),
+        "flow_index" => Rule::AboveUpTo(0.0, 2.0),
         "extrusion_c" | "glass_c" | "flow_arrest_c" => Rule::Between(ABSOLUTE_ZERO_C, 2000.0),
         _ => Rule::Positive,
     }
@@ -187,6 +297,49 @@ fn temperatures(law: Place<'_>, checks: &mut Checks) {
             let says = format!("`{key}` {set} °C is not below the nozzle's {extrusion} °C");
             let hint = "a thermoplastic must be a melt in the nozzle and set in air";
             checks.refuse(Diagnostic::error(place.span(), says).hint(hint));
+        }
+    }
+}
+
+/// Numbers of fits, which have no range of their own.
+fn coefficients(law: Place<'_>, checks: &mut Checks) {
+    if let Some(heat) = law.get("heat") {
+        for (key, rule) in [
+            ("cp0_j_kgk", Rule::Positive),
+            ("cp1_j_kgk2", Rule::Finite),
+            ("k0_w_mk", Rule::Positive),
+            ("k1_w_mk2", Rule::Finite),
+        ] {
+            checks.number(heat.get(key), rule);
+        }
+    }
+    if let Some(tait) = law.get("tait") {
+        checks.number(tait.get("b5_k"), Rule::Positive);
+        checks.number(tait.get("b6_k_pa"), Rule::NotNegative);
+        checks.numbers(tait.get("melt"), Rule::Positive);
+        checks.numbers(tait.get("solid"), Rule::Positive);
+    }
+    if let Some(weld) = law.get("weld") {
+        checks.number(weld.get("a_s"), Rule::Positive);
+        checks.number(weld.get("q_j_mol"), Rule::Between(0.0, 1e6));
+        checks.number(weld.get("factor_low"), Rule::AboveUpTo(0.0, 1.0));
+        checks.number(weld.get("factor_high"), Rule::FromTo(1.0, 1e6));
+    }
+    if let Some(kinetics) = law.get("kinetics") {
+        for key in ["m", "n", "k2_over_k1"] {
+            checks.number(kinetics.get(key), Rule::FromTo(0.0, 100.0));
+        }
+        checks.number(kinetics.get("b"), Rule::AboveUpTo(0.0, 2.0));
+        checks.number(kinetics.get("measured_at_w_m2"), Rule::Positive);
+        checks.number(kinetics.get("gel"), Rule::Between(0.0, 1.0));
+        checks.number(kinetics.get("max"), Rule::AboveUpTo(0.0, 1.0));
+        let value = |key: &str| kinetics.get(key)?.number();
+        if let (Some(gel), Some(max), Some(place)) =
+            (value("gel"), value("max"), kinetics.get("max"))
+            && gel >= max
+        {
+            let says = format!("it gels at {gel}, but never gets past {max}");
+            checks.refuse(Diagnostic::error(place.span(), says).hint("`gel` is below `max`"));
         }
     }
 }

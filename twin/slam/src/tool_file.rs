@@ -24,10 +24,16 @@ pub struct ToolFile {
     pub centre_mm: Option<[f64; 3]>,
     /// The parts, each convex or split into convex ones.
     pub part: Vec<PartFile>,
-    /// Air nozzles, if any.
+    /// All that its air nozzles do together, where they are not told one by one.
     pub air_jet: Option<AirJetFile>,
+    /// Its air nozzles one by one.
+    #[serde(default)]
+    pub air_nozzle: Vec<AirNozzleFile>,
     /// Light ring, if any.
     pub light_ring: Option<LightRingFile>,
+    /// Lamps besides the ring, in tool axes.
+    #[serde(default)]
+    pub lamp: Vec<LampFile>,
 }
 
 /// A named part of a tool.
@@ -105,6 +111,38 @@ pub struct AirJetFile {
     pub source: String,
 }
 
+/// An air nozzle on the tool.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AirNozzleFile {
+    /// Middle of its mouth in tool axes, mm.
+    pub at_mm: [f64; 3],
+    /// The way it blows, in tool axes; any length.
+    pub along: [f64; 3],
+    /// Diameter of its bore, mm.
+    pub bore_mm: f64,
+    /// Air speed at its mouth, m/s: nominal, low, high.
+    pub exit_m_s: [f64; 3],
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// A lamp.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LampFile {
+    /// Its place in the axes of what carries it, mm.
+    pub at_mm: [f64; 3],
+    /// The way it shines; any length.
+    pub along: [f64; 3],
+    /// Radiant intensity on its axis, W/sr: nominal, low, high.
+    pub intensity_w_sr: [f64; 3],
+    /// Full angle at half intensity, degrees.
+    pub full_angle_deg: f64,
+    /// Where it comes from.
+    pub source: String,
+}
+
 /// A ring of LEDs that shines on the strand just behind the nozzle.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -148,8 +186,41 @@ pub fn parse(source: &Source) -> Result<ToolFile, Vec<Diagnostic>> {
             checks.number(jet.get("reach_mm"), Rule::Positive);
             checks.text(jet.get("source"), "say where it comes from, or \"ours\"");
         }
+        for nozzle in tool.get("air_nozzle").map(Place::items).unwrap_or_default() {
+            checks.numbers(nozzle.get("at_mm"), Rule::Finite);
+            direction(nozzle.get("along"), checks);
+            checks.number(nozzle.get("bore_mm"), Rule::Positive);
+            checks.interval(nozzle.get("exit_m_s"), Rule::NotNegative);
+            checks.text(nozzle.get("source"), "say where it comes from, or \"ours\"");
+        }
+        if let (Some(jet), Some(_)) = (tool.get("air_jet"), tool.get("air_nozzle")) {
+            let says = "air told both as a whole and nozzle by nozzle";
+            checks.refuse(
+                Diagnostic::error(jet.span(), says).hint("keep `[air_jet]` or `[[air_nozzle]]`"),
+            );
+        }
         light_ring(tool.get("light_ring"), checks);
+        lamps(tool, checks);
     })
+}
+
+/// Lamps of a tool or a cell.
+pub(crate) fn lamps(carrier: Place<'_>, checks: &mut Checks) {
+    for lamp in carrier.get("lamp").map(Place::items).unwrap_or_default() {
+        checks.numbers(lamp.get("at_mm"), Rule::Finite);
+        direction(lamp.get("along"), checks);
+        checks.interval(lamp.get("intensity_w_sr"), Rule::Positive);
+        checks.number(lamp.get("full_angle_deg"), Rule::AboveUpTo(0.0, 180.0));
+        checks.text(lamp.get("source"), "say where it comes from, or \"ours\"");
+    }
+}
+
+fn direction(place: Option<Place<'_>>, checks: &mut Checks) {
+    checks.numbers(place, Rule::FromTo(-1e6, 1e6));
+    let Some(place) = place else { return };
+    if place.numbers().is_some_and(|way| way.iter().all(|part| part.abs() < 1e-6)) {
+        checks.error(place, "a direction of no length".to_owned());
+    }
 }
 
 fn parts(parts: Option<Place<'_>>, checks: &mut Checks) {

@@ -1,8 +1,9 @@
-//! The controller, hoses, and how well the cell was measured.
+//! The controller, hoses, lamps, air, and how well the cell was measured.
 
 pub use slam::cell_file::LinearMove;
 
-use crate::pose::{Point, Pose};
+use crate::interval::Interval;
+use crate::pose::{Point, Pose, Vector};
 
 /// How the controller moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +61,32 @@ pub struct Hose {
     pub radius_m: f64,
     /// Largest twist of its ends against each other, from home, counted over full turns, rad.
     pub twist_rad: f64,
+}
+
+/// A lamp, in the axes of what carries it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lamp {
+    /// Its place.
+    pub at: Point,
+    /// The way it shines, unit.
+    pub along: Vector,
+    /// Radiant intensity on its axis, W/sr.
+    pub peak_w_sr: Interval,
+    /// Full angle at half intensity, rad.
+    pub full_angle_rad: f64,
+}
+
+/// An air nozzle on the tool, in tool axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AirNozzle {
+    /// Middle of its mouth.
+    pub at: Point,
+    /// The way it blows, unit.
+    pub along: Vector,
+    /// Diameter of its bore, m.
+    pub bore_m: f64,
+    /// Air speed at its mouth, m/s.
+    pub exit_m_s: Interval,
 }
 
 /// How far a place in the cell may be from where the files say it is.

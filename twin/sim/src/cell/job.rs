@@ -153,6 +153,19 @@ pub struct Orientation {
     pub spin: Spin,
 }
 
+/// Thin threads that leave a strand and come back to it in knots.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threads {
+    /// How many.
+    pub count: u32,
+    /// Diameter of one, m.
+    pub diameter_m: f64,
+    /// From one knot to the next, m.
+    pub pitch_m: f64,
+    /// Farthest from the strand's axis to theirs, m.
+    pub sweep_m: f64,
+}
+
 /// Process values of one strand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -168,6 +181,12 @@ pub struct Settings {
     pub overrun_m: f64,
     /// Rest at the end, s.
     pub dwell_s: f64,
+    /// Speed of a second pass with the lights on and no extrusion, m/s.
+    pub second_pass_m_s: Option<f64>,
+    /// Dose of a post-cure from all around, once all is printed, J/m².
+    pub post_cure_j_m2: Option<f64>,
+    /// Thin threads knotted to the strand.
+    pub threads: Option<Threads>,
     /// Straight approach, m.
     pub approach_m: f64,
     /// Straight retract, m.
@@ -329,6 +348,16 @@ pub struct Limits {
     pub torque_share: f64,
     /// Largest share of a joint's acceleration limit.
     pub acceleration_share: f64,
+    /// Largest difference of the bead's diameter from the asked one, as a share of it.
+    pub bead_band: f64,
+    /// Least and largest speed of the nozzle over that of a free strand.
+    pub draw_ratio: [f64; 2],
+    /// Least strength of a bond, as a share of the strength along the strand.
+    pub bond_share: f64,
+    /// Largest dose at the nozzle's tip while one bead passes, as a share of the critical exposure.
+    pub tip_dose_share: f64,
+    /// Largest angle between the nozzle's axis and the strand, rad.
+    pub nozzle_angle_rad: Option<f64>,
     /// Longest the program may take, s.
     pub cycle_time_s: Option<f64>,
 }

@@ -7,7 +7,7 @@ use crate::pose::{Pose, Vector};
 use crate::process::{Jet, LightRing};
 use crate::shape::Shape;
 
-use super::equipment::{Calibration, Controller, Hose};
+use super::equipment::{AirNozzle, Calibration, Controller, Hose, Lamp};
 use super::job::Limits;
 
 /// A cell. World axes are those of the chain's base link.
@@ -29,6 +29,8 @@ pub struct Cell {
     pub obstacles: Vec<Obstacle>,
     /// Hoses from the arm to what rides on the flange.
     pub hoses: Vec<Hose>,
+    /// Lamps that stand in the room, in world axes.
+    pub lamps: Vec<Lamp>,
     /// How the controller moves.
     pub controller: Controller,
     /// How well tool, bed and forms were measured.
@@ -160,10 +162,14 @@ pub struct Tool {
     pub centre: Option<Vector>,
     /// Named parts.
     pub parts: Vec<ToolPart>,
-    /// Air nozzles.
+    /// All its air nozzles together, where they are not told one by one.
     pub air_jet: Option<Jet>,
+    /// Its air nozzles one by one.
+    pub air_nozzles: Vec<AirNozzle>,
     /// Light ring.
     pub light_ring: Option<LightRing>,
+    /// Lamps besides the ring.
+    pub lamps: Vec<Lamp>,
 }
 
 /// A named part of the tool, as convex shapes in tool axes.
@@ -240,6 +246,10 @@ pub struct Extruder {
     pub approach_m: f64,
     /// Speed of moves without extrusion, m/s.
     pub travel_m_s: f64,
+    /// Time in which the flow comes within 1/e of what is told, s; `None`: nobody knows.
+    pub lag_s: Option<Interval>,
+    /// Volume between the mixer of a two-part resin and the orifice, m³.
+    pub mixer_m3: Option<f64>,
     /// Force of the nozzle on the node it lands on, N.
     pub nozzle_force_n: Interval,
 }

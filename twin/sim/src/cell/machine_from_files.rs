@@ -2,10 +2,10 @@
 
 use slam::cell_file::{CellFile, LimitsFile, Mode as ModeFile, PoseFile};
 use slam::robot_file::LinkShapes;
-use slam::tool_file::{ShapeFile, ToolFile};
+use slam::tool_file::{LampFile, ShapeFile, ToolFile};
 use slam::urdf::{LinkDescription, ShapeDescription};
 
-use super::equipment::Hose;
+use super::equipment::{AirNozzle, Hose, Lamp};
 use super::equipment_from_files;
 use super::job::Limits;
 use super::machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
@@ -65,6 +65,7 @@ pub fn machine(parts: &Parts<'_>) -> Result<Cell, String> {
             })
             .collect(),
         hoses,
+        lamps: lamps(&file.lamp),
         controller: equipment_from_files::controller(&file.controller),
         calibration: equipment_from_files::calibration(file.calibration.as_ref()),
         home,
@@ -254,6 +255,17 @@ fn tool(file: &ToolFile) -> Tool {
             .air_jet
             .as_ref()
             .map(|jet| Jet { speed_m_s: triple(jet.speed_m_s), reach_m: jet.reach_mm / 1e3 }),
+        air_nozzles: file
+            .air_nozzle
+            .iter()
+            .map(|nozzle| AirNozzle {
+                at: Point::from(nozzle.at_mm.map(|mm| mm / 1e3)),
+                along: Vector::from(nozzle.along).normalize(),
+                bore_m: nozzle.bore_mm / 1e3,
+                exit_m_s: triple(nozzle.exit_m_s),
+            })
+            .collect(),
+        lamps: lamps(&file.lamp),
         light_ring: file.light_ring.as_ref().map(|ring| LightRing {
             leds: ring.leds,
             distance_m: ring.distance_mm / 1e3,
@@ -265,6 +277,16 @@ fn tool(file: &ToolFile) -> Tool {
     }
 }
 
+fn lamps(files: &[LampFile]) -> Vec<Lamp> {
+    let lamp = |file: &LampFile| Lamp {
+        at: Point::from(file.at_mm.map(|mm| mm / 1e3)),
+        along: Vector::from(file.along).normalize(),
+        peak_w_sr: triple(file.intensity_w_sr),
+        full_angle_rad: file.full_angle_deg.to_radians(),
+    };
+    files.iter().map(lamp).collect()
+}
+
 fn extruder(file: &CellFile) -> Extruder {
     let file = &file.extruder;
     Extruder {
@@ -274,6 +296,8 @@ fn extruder(file: &CellFile) -> Extruder {
         levels_m3_s: file.levels_mm3_s.iter().map(|level| level / 1e9).collect(),
         approach_m: file.approach_mm / 1e3,
         travel_m_s: file.travel_mm_s / 1e3,
+        lag_s: file.lag_s.map(triple),
+        mixer_m3: file.mixer_mm3.map(|volume| volume / 1e9),
         nozzle_force_n: triple(file.nozzle_force_n),
     }
 }
@@ -294,6 +318,11 @@ fn limits(file: &LimitsFile) -> Limits {
         speed_band: file.speed_band_percent / 100.0,
         torque_share: file.torque_percent / 100.0,
         acceleration_share: file.acceleration_percent / 100.0,
+        bead_band: file.bead_band_percent / 100.0,
+        draw_ratio: file.draw_ratio,
+        bond_share: file.bond_percent / 100.0,
+        tip_dose_share: file.tip_dose_share,
+        nozzle_angle_rad: file.nozzle_angle_deg.map(f64::to_radians),
         cycle_time_s: file.cycle_time_s,
     }
 }

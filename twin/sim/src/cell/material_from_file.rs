@@ -3,7 +3,10 @@
 use slam::material_file::{MaterialFile, Number, SettingFile};
 
 use crate::interval::Interval;
-use crate::process::{CrossWlf, Material, Photopolymer, Setting, Thermoplastic, TwoPart};
+use crate::process::{
+    CrossWlf, GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw,
+    Thermoplastic, TwoPart, WeldLaw,
+};
 
 /// The material of a file.
 pub(super) fn material(file: &MaterialFile) -> Material {
@@ -31,6 +34,11 @@ fn setting(file: &SettingFile) -> Setting {
             flow_arrest_c,
             viscosity,
             plateau_modulus_pa,
+            heat,
+            tait,
+            weld,
+            surface_tension_n_m,
+            melt_life_s,
         } => Setting::Thermoplastic(Thermoplastic {
             extrusion_k: kelvin(extrusion_c),
             melt_density_kg_m3: interval(melt_density_kg_m3),
@@ -44,6 +52,23 @@ fn setting(file: &SettingFile) -> Setting {
                 factor: Interval::new(1.0, viscosity.factor_low, viscosity.factor_high),
             },
             plateau_modulus_pa: interval(plateau_modulus_pa),
+            heat: heat.as_ref().map(|law| HeatLaw {
+                cp: [law.cp0_j_kgk, law.cp1_j_kgk2],
+                k: [law.k0_w_mk, law.k1_w_mk2],
+            }),
+            tait: tait.as_ref().map(|law| TaitLaw {
+                b5_k: law.b5_k,
+                b6_k_pa: law.b6_k_pa,
+                melt: law.melt,
+                solid: law.solid,
+            }),
+            weld: weld.as_ref().map(|law| WeldLaw {
+                a_s: law.a_s,
+                q_j_mol: law.q_j_mol,
+                factor: Interval::new(1.0, law.factor_low, law.factor_high),
+            }),
+            surface_tension_n_m: surface_tension_n_m.as_ref().map(interval),
+            melt_life_s: melt_life_s.as_ref().map(interval),
         }),
         SettingFile::Photopolymer {
             gel_density_kg_m3,
@@ -54,6 +79,14 @@ fn setting(file: &SettingFile) -> Setting {
             gel_modulus_pa,
             cured_modulus_pa,
             linear_shrinkage,
+            kinetics,
+            reaction_heat_j_kg,
+            exposure_activation_j_mol,
+            tacky_skin_m,
+            consistency_pa_sn,
+            flow_index,
+            recovery_s,
+            surface_tension_n_m,
         } => Setting::Photopolymer(Photopolymer {
             gel_density_kg_m3: interval(gel_density_kg_m3),
             base_viscosity_pa_s: interval(base_viscosity_pa_s),
@@ -63,15 +96,43 @@ fn setting(file: &SettingFile) -> Setting {
             gel_modulus_pa: interval(gel_modulus_pa),
             cured_modulus_pa: interval(cured_modulus_pa),
             linear_shrinkage: interval(linear_shrinkage),
+            kinetics: kinetics.as_ref().map(|law| KineticsLaw {
+                m: law.m,
+                n: law.n,
+                b: law.b,
+                k2_over_k1: law.k2_over_k1,
+                measured_at_w_m2: law.measured_at_w_m2,
+                gel: law.gel,
+                max: law.max,
+            }),
+            reaction_heat_j_kg: reaction_heat_j_kg.as_ref().map(interval),
+            exposure_activation_j_mol: exposure_activation_j_mol.as_ref().map(interval),
+            tacky_skin_m: tacky_skin_m.as_ref().map(interval),
+            flow: gel_flow(consistency_pa_sn, flow_index, recovery_s),
+            surface_tension_n_m: surface_tension_n_m.as_ref().map(interval),
         }),
-        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage } => {
+        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage, pot_life_s } => {
             Setting::TwoPart(TwoPart {
                 set_time_s: interval(set_time_s),
                 viscosity_pa_s: interval(viscosity_pa_s),
                 linear_shrinkage: interval(linear_shrinkage),
+                pot_life_s: pot_life_s.as_ref().map(interval),
             })
         }
     }
+}
+
+/// The law of a flowing gel, where all of it is known.
+fn gel_flow(
+    consistency_pa_sn: &Option<Number>,
+    index: &Option<Number>,
+    recovery_s: &Option<Number>,
+) -> Option<GelFlow> {
+    Some(GelFlow {
+        consistency_pa_sn: interval(consistency_pa_sn.as_ref()?),
+        index: interval(index.as_ref()?),
+        recovery_s: interval(recovery_s.as_ref()?),
+    })
 }
 
 fn interval(number: &Number) -> Interval {

@@ -10,10 +10,10 @@ mod resolve;
 #[cfg(test)]
 mod tests;
 
-pub use equipment::{Calibration, Controller, Hose, LinearMove, PoseError};
+pub use equipment::{AirNozzle, Calibration, Controller, Hose, Lamp, LinearMove, PoseError};
 pub use job::{
     Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On,
-    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Threads, Tilt,
 };
 pub use machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
 pub use machine_from_files::machine;

@@ -15,7 +15,7 @@ use slam::{Diagnostic, Span, Spanned};
 
 use super::job::{
     Air, At, End, Event, Flow, Follow, Form, Interpolation, Job, Join, Limits, LoadCase, On,
-    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Tilt,
+    Orientation, PointForce, ProfilePoint, Settings, Spin, Step, Strand, Support, Threads, Tilt,
 };
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
@@ -163,6 +163,20 @@ impl Resolver<'_> {
             lights_after_m: pick(own.lights_after_mm, common.lights_after_mm, 0.0) / 1e3,
             overrun_m: pick(own.overrun_mm, common.overrun_mm, 0.0) / 1e3,
             dwell_s: pick(own.dwell_s, common.dwell_s, 0.0),
+            second_pass_m_s: own
+                .second_pass_mm_s
+                .or(common.second_pass_mm_s)
+                .map(|speed| speed.value / 1e3),
+            post_cure_j_m2: own
+                .post_cure_j_cm2
+                .or(common.post_cure_j_cm2)
+                .map(|dose| dose.value * 1e4),
+            threads: own.threads.or(common.threads).map(|threads| Threads {
+                count: threads.count,
+                diameter_m: threads.diameter_mm / 1e3,
+                pitch_m: threads.pitch_mm / 1e3,
+                sweep_m: threads.sweep_mm / 1e3,
+            }),
             approach_m: pick(own.approach_mm, common.approach_mm, approach_mm) / 1e3,
             retract_m: pick(own.retract_mm, common.retract_mm, approach_mm) / 1e3,
             orientation: self.orientation(strand, has_directions),

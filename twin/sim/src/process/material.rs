@@ -57,6 +57,49 @@ pub struct Thermoplastic {
     pub viscosity: CrossWlf,
     /// Modulus of the rubbery plateau above the glass transition, Pa.
     pub plateau_modulus_pa: Interval,
+    /// Specific heat and conductivity against temperature; `None`: one number each.
+    pub heat: Option<HeatLaw>,
+    /// Density against temperature.
+    pub tait: Option<TaitLaw>,
+    /// Time in which a weld heals; `None`: nobody knows.
+    pub weld: Option<WeldLaw>,
+    /// Surface tension of the melt, N/m.
+    pub surface_tension_n_m: Option<Interval>,
+    /// How long the melt may wait in the nozzle, s.
+    pub melt_life_s: Option<Interval>,
+}
+
+/// Specific heat `cp0 + cp1 T` and conductivity `k0 + k1 T`, T in °C.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeatLaw {
+    /// Specific heat at 0 °C, J/(kg K), and its slope, J/(kg K²).
+    pub cp: [f64; 2],
+    /// Conductivity at 0 °C, W/(m K), and its slope, W/(m K²).
+    pub k: [f64; 2],
+}
+
+/// Coefficients of Tait's equation, SI, letters of the literature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaitLaw {
+    /// Transition at no pressure, K.
+    pub b5_k: f64,
+    /// Its rise with pressure, K/Pa.
+    pub b6_k_pa: f64,
+    /// b1 to b4 of the melt.
+    pub melt: [f64; 4],
+    /// b1 to b4 of the solid.
+    pub solid: [f64; 4],
+}
+
+/// Weld time `A exp(Q/(R T))`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeldLaw {
+    /// A, s.
+    pub a_s: f64,
+    /// Q, J/mol.
+    pub q_j_mol: f64,
+    /// True time over the law's.
+    pub factor: Interval,
 }
 
 /// What sets by light.
@@ -78,6 +121,48 @@ pub struct Photopolymer {
     pub cured_modulus_pa: Interval,
     /// Linear shrinkage after the gel point.
     pub linear_shrinkage: Interval,
+    /// How the degree of cure grows; `None`: nobody knows.
+    pub kinetics: Option<KineticsLaw>,
+    /// Heat of the whole reaction, J/kg.
+    pub reaction_heat_j_kg: Option<Interval>,
+    /// Activation energy of the critical exposure, J/mol.
+    pub exposure_activation_j_mol: Option<Interval>,
+    /// Skin that air keeps tacky, m.
+    pub tacky_skin_m: Option<Interval>,
+    /// How the gel flows past its yield stress; `None`: nobody knows.
+    pub flow: Option<GelFlow>,
+    /// Surface tension, N/m.
+    pub surface_tension_n_m: Option<Interval>,
+}
+
+/// Kamal and Sourour's law with intensity; its rates follow from the critical exposure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KineticsLaw {
+    /// m.
+    pub m: f64,
+    /// n.
+    pub n: f64,
+    /// Exponent of the intensity.
+    pub b: f64,
+    /// k2 over k1.
+    pub k2_over_k1: f64,
+    /// Irradiance at which the critical exposure was measured, W/m²; `None`: the strand's own.
+    pub measured_at_w_m2: Option<f64>,
+    /// Degree of cure at the gel point.
+    pub gel: f64,
+    /// Greatest degree of cure at room temperature.
+    pub max: f64,
+}
+
+/// A gel that flows past its yield stress: `τ = τ_y + K γ̇ⁿ`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GelFlow {
+    /// K, Pa sⁿ.
+    pub consistency_pa_sn: Interval,
+    /// n.
+    pub index: Interval,
+    /// Time in which it finds its yield stress again, s.
+    pub recovery_s: Interval,
 }
 
 /// What sets by the clock.
@@ -89,6 +174,8 @@ pub struct TwoPart {
     pub viscosity_pa_s: Interval,
     /// Linear shrinkage after the gel point.
     pub linear_shrinkage: Interval,
+    /// Time from the mixer after which it blocks what it stands in, s.
+    pub pot_life_s: Option<Interval>,
 }
 
 impl Material {

@@ -20,7 +20,10 @@ pub mod viscosity;
 
 pub use history::History;
 pub use light::LightRing;
-pub use material::{Material, Photopolymer, Setting, Thermoplastic, TwoPart};
+pub use material::{
+    GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw, Thermoplastic,
+    TwoPart, WeldLaw,
+};
 pub use strand::{Air, Ends, Jet, StrandInput, StrandOutcome, simulate};
 pub use viscosity::CrossWlf;
 

@@ -26,6 +26,11 @@ fn plastic(numbers: [f64; 9], cte: Interval, cp: Interval, factor: Interval) -> 
         k_w_mk: exact(k),
         emissivity: exact(0.92),
         setting: Setting::Thermoplastic(Thermoplastic {
+            heat: None,
+            tait: None,
+            weld: None,
+            surface_tension_n_m: None,
+            melt_life_s: None,
             extrusion_k: exact(start_c + 273.15),
             melt_density_kg_m3: exact(melt),
             glass_k: exact(glass_c + 273.15),
@@ -69,6 +74,12 @@ fn resin() -> Material {
         density_kg_m3: exact(1200.0),
         youngs_modulus_pa: range(1.6e9, 0.45e9, 2e9),
         setting: Setting::Photopolymer(Photopolymer {
+            kinetics: None,
+            reaction_heat_j_kg: None,
+            exposure_activation_j_mol: None,
+            tacky_skin_m: None,
+            flow: None,
+            surface_tension_n_m: None,
             gel_density_kg_m3: exact(1130.0),
             base_viscosity_pa_s: range(0.3, 0.06, 1.5),
             yield_stress_pa: range(60.0, 15.0, 250.0),
@@ -84,6 +95,7 @@ fn resin() -> Material {
 
 fn two_part() -> Material {
     let setting = Setting::TwoPart(TwoPart {
+        pot_life_s: None,
         set_time_s: range(0.3, 0.3, 1.0),
         viscosity_pa_s: Interval::exact(50.0),
         linear_shrinkage: range(0.01, 0.002, 0.03),

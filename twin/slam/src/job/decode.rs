@@ -53,6 +53,9 @@ fn process(object: &Object<'_>) -> Process {
         lights_after_mm: number(object, "lights_after_mm"),
         overrun_mm: number(object, "overrun_mm"),
         dwell_s: number(object, "dwell_s"),
+        second_pass_mm_s: number(object, "second_pass_mm_s"),
+        post_cure_j_cm2: number(object, "post_cure_j_cm2"),
+        threads: object.get_object("threads").and_then(threads),
         approach_mm: number(object, "approach_mm"),
         retract_mm: number(object, "retract_mm"),
         orientation: object.get_object("orientation").map(orientation).unwrap_or_default(),
@@ -69,6 +72,15 @@ fn flow(object: &Object<'_>) -> Option<Spanned<Flow>> {
     let rate = number(object, "rate_mm3_s").map(|number| Flow::RateMm3S(number.value));
     let level = number(object, "level").map(|number| Flow::Level(number.value as u32));
     Some(Spanned::new(diameter.or(rate).or(level)?, span_of(object)))
+}
+
+fn threads(object: &Object<'_>) -> Option<Threads> {
+    Some(Threads {
+        count: number(object, "count")?.value as u32,
+        diameter_mm: number(object, "diameter_mm")?.value,
+        pitch_mm: number(object, "pitch_mm")?.value,
+        sweep_mm: number(object, "sweep_mm")?.value,
+    })
 }
 
 fn orientation(object: &Object<'_>) -> Orientation {

@@ -64,9 +64,20 @@ fn process(process: &Process) -> Vec<String> {
         ("lights_after_mm", process.lights_after_mm),
         ("overrun_mm", process.overrun_mm),
         ("dwell_s", process.dwell_s),
+        ("second_pass_mm_s", process.second_pass_mm_s),
+        ("post_cure_j_cm2", process.post_cure_j_cm2),
         ("approach_mm", process.approach_mm),
         ("retract_mm", process.retract_mm),
     ]));
+    fields.extend(process.threads.map(|threads| {
+        let keys = vec![
+            field("count", threads.count.to_string()),
+            field("diameter_mm", number(threads.diameter_mm)),
+            field("pitch_mm", number(threads.pitch_mm)),
+            field("sweep_mm", number(threads.sweep_mm)),
+        ];
+        field("threads", inline(keys))
+    }));
     fields.extend(placed("orientation", inline(orientation(&process.orientation))));
     fields.extend(process.interpolation.map(|interpolation| {
         let word = match interpolation.value {

@@ -63,8 +63,9 @@ fn orientation() -> impl Strategy<Value = Orientation> {
 fn process() -> impl Strategy<Value = Process> {
     let interpolation =
         option::of(prop_oneof![Just(Interpolation::Linear), Just(Interpolation::Joint)]);
-    (vec(positive(), 7), flow(), orientation(), interpolation).prop_map(
-        |(n, flow, orientation, interpolation)| Process {
+    let threads = option::of((1..12_u32, [0.01..9.0_f64, 0.01..9.0, 0.0..9.0]));
+    (vec(positive(), 9), flow(), orientation(), interpolation, threads).prop_map(
+        |(n, flow, orientation, interpolation, threads)| Process {
             speed_mm_s: n[0],
             flow,
             prime_s: n[1],
@@ -73,6 +74,14 @@ fn process() -> impl Strategy<Value = Process> {
             dwell_s: n[4],
             approach_mm: n[5],
             retract_mm: n[6],
+            second_pass_mm_s: n[7],
+            post_cure_j_cm2: n[8],
+            threads: threads.map(|(count, [diameter_mm, pitch_mm, sweep_mm])| Threads {
+                count,
+                diameter_mm,
+                pitch_mm,
+                sweep_mm,
+            }),
             orientation,
             interpolation: interpolation.map(placed),
         },

@@ -114,6 +114,21 @@ const PROCESS_KEYS: &[Key] = &[
     optional("lights_after_mm", SPAN_MM, "mm", "0", "Length printed before the lights go on."),
     optional("overrun_mm", SPAN_MM, "mm", "0", "Length travelled past the end of the strand."),
     optional("dwell_s", SECONDS, "s", "0", "Rest at the end of the strand."),
+    optional(
+        "second_pass_mm_s",
+        Kind::Number(SPEED),
+        "mm/s",
+        "no second pass",
+        "Speed of a second pass with the lights on and no extrusion.",
+    ),
+    optional(
+        "post_cure_j_cm2",
+        Kind::Number(Range::positive(1e6)),
+        "J/cm²",
+        "no post-cure",
+        "Dose of a post-cure from all around, once all is printed.",
+    ),
+    optional("threads", Kind::Object(&THREADS), "", "none", "Thin threads knotted to the strand."),
     optional("approach_mm", SPAN_MM, "mm", "the cell's", "Length of the straight approach."),
     optional("retract_mm", SPAN_MM, "mm", "the cell's", "Length of the straight retract."),
     optional("orientation", Kind::Object(&ORIENTATION), "", "vertical", "Nozzle orientation."),
@@ -144,6 +159,22 @@ const FLOW: Table = table(
         ),
     ]],
     Rule::OneOf(FLOW_KEYS),
+);
+
+const THREADS: Table = table(
+    "threads",
+    &[&[
+        required("count", Kind::Integer(Range::within(1.0, 12.0)), "", "How many threads."),
+        required("diameter_mm", Kind::Number(Range::positive(200.0)), "mm", "Diameter of one."),
+        required("pitch_mm", Kind::Number(Range::positive(1e4)), "mm", "From knot to knot."),
+        required(
+            "sweep_mm",
+            Kind::Number(Range::within(0.0, 1e3)),
+            "mm",
+            "Farthest from the strand's axis to theirs, between knots.",
+        ),
+    ]],
+    Rule::Free,
 );
 
 const ORIENTATION: Table = table(
