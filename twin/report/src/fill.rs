@@ -133,7 +133,7 @@ impl Fill<'_> {
                 process::Ends::Resting => Ends::Resting,
             },
             span_m: number(input.span_m),
-            bead_diameter_m: range(outcome.bead_diameter_m),
+            bead_m: range(outcome.bead_diameter_m),
             draw_ratio: range(outcome.draw_ratio),
             set_time_s: range(outcome.set_time_s),
             set_distance_m: range(outcome.set_distance_m),
@@ -289,7 +289,7 @@ pub(crate) fn number(value: f64) -> Option<f64> {
 
 pub(crate) fn range(interval: Interval) -> Range {
     Range {
-        nominal: number(interval.nominal),
+        value: number(interval.nominal),
         low: number(interval.low),
         high: number(interval.high),
     }

@@ -128,7 +128,7 @@ fn strands(report: &Report, screen: &mut Screen) {
     let core = |strand: &Strand| strand.uncured_core_m;
     type Column<'a> = (&'a str, &'a dyn Fn(&Strand) -> Option<Range>);
     let rows: [Column<'_>; 7] = [
-        ("bead", &|strand| Some(strand.bead_diameter_m)),
+        ("bead", &|strand| Some(strand.bead_m)),
         ("sag behind nozzle", &|strand| Some(strand.sag_nozzle_m)),
         ("sag by slack", &|strand| Some(strand.sag_slack_m)),
         ("sag once set", &|strand| Some(strand.sag_set_m)),
@@ -156,7 +156,7 @@ fn strands(report: &Report, screen: &mut Screen) {
 
 /// Nominal value to rank by; then the high end, for values that nominally are zero.
 fn size(range: &Range) -> f64 {
-    let nominal = range.nominal.unwrap_or(f64::INFINITY);
+    let nominal = range.value.unwrap_or(f64::INFINITY);
     if nominal > 0.0 { nominal } else { 1e-9 * range.high.unwrap_or(f64::INFINITY) }
 }
 

@@ -76,7 +76,7 @@ impl Unit {
     /// `1.20 mm (0.90 to 1.50)`; the range is left out where it is a point on the screen.
     pub(crate) fn show_range(self, range: &Range) -> String {
         let [low, high] = [self.bare(range.low), self.bare(range.high)];
-        let nominal = self.show(range.nominal);
+        let nominal = self.show(range.value);
         if low == high { nominal } else { format!("{nominal} ({low} to {high})") }
     }
 }
@@ -111,6 +111,6 @@ pub(crate) fn against(finding: &Finding) -> Option<String> {
         Bound::Forbidden => return None,
     };
     let unit = Unit::of(&finding.code, &finding.unit);
-    let range = Range { nominal: finding.measured, low: finding.low, high: finding.high };
+    let range = Range { value: finding.measured, low: finding.low, high: finding.high };
     Some(format!("{}, {word} {}", unit.show_range(&range), unit.show(finding.limit)))
 }

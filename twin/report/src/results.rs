@@ -11,7 +11,7 @@ use crate::program::{Budget, Cycle, Hose, Payload, TcpSpeed, Tracking};
 #[serde(deny_unknown_fields)]
 pub struct Range {
     /// What is expected.
-    pub nominal: Option<f64>,
+    pub value: Option<f64>,
     /// Low end.
     pub low: Option<f64>,
     /// High end.
@@ -41,7 +41,7 @@ pub struct Strand {
     /// Longest unsupported span, m.
     pub span_m: Option<f64>,
     /// Diameter once set, m.
-    pub bead_diameter_m: Range,
+    pub bead_m: Range,
     /// Nozzle speed over the speed of a free strand.
     pub draw_ratio: Range,
     /// Age at which it is set, s; null: never.

@@ -11,7 +11,7 @@ use crate::results::{
 
 fn range(nominal: f64, low: f64, high: f64) -> Range {
     let number = crate::fill::number;
-    Range { nominal: number(nominal), low: number(low), high: number(high) }
+    Range { value: number(nominal), low: number(low), high: number(high) }
 }
 
 /// A strand of which little is special.
@@ -26,7 +26,7 @@ pub(crate) fn strand(id: &str, sag_m: f64) -> Strand {
         flow_m3_s: Some(3.53e-8),
         ends: Ends::BothHeld,
         span_m: Some(0.06),
-        bead_diameter_m: range(0.003, 0.0029, 0.0031),
+        bead_m: range(0.003, 0.0029, 0.0031),
         draw_ratio: range(1.0, 0.9, 1.1),
         set_time_s: range(4.0, 3.0, f64::INFINITY),
         set_distance_m: range(0.02, 0.015, f64::INFINITY),

@@ -86,7 +86,7 @@ fn a_family_without_checks_scores_null() {
 fn numbers_that_are_not_finite_are_null() {
     let range =
         crate::fill::range(Interval { nominal: 1.0, low: f64::NEG_INFINITY, high: f64::NAN });
-    assert_eq!((range.nominal, range.low, range.high), (Some(1.0), None, None));
+    assert_eq!((range.value, range.low, range.high), (Some(1.0), None, None));
 }
 
 #[test]

@@ -95,7 +95,7 @@ fn units_are_those_of_people() {
     assert_eq!(Unit::Degree.show(Some(quarter_turn)), "90.0°");
     assert_eq!(Unit::Percent.show(Some(1.2)), "120 %");
     assert_eq!(Unit::Millimetre.show(None), "no end");
-    let endless = Range { nominal: Some(0.02), low: Some(0.015), high: Some(1e3) };
+    let endless = Range { value: Some(0.02), low: Some(0.015), high: Some(1e3) };
     assert_eq!(Unit::Millimetre.show_range(&endless), "20.0 mm (15.0 to no end)");
     assert_eq!(clock(Some(3723.6)), "1:02:04");
 }

@@ -22,10 +22,16 @@ pub(super) fn page(code: Code) -> &'static str {
         Code::C207 => include_str!("pages/C207.md"),
         Code::C208 => include_str!("pages/C208.md"),
         Code::P301 => include_str!("pages/P301.md"),
+        Code::P302 => include_str!("pages/P302.md"),
         Code::P303 => include_str!("pages/P303.md"),
         Code::P304 => include_str!("pages/P304.md"),
         Code::P305 => include_str!("pages/P305.md"),
         Code::P306 => include_str!("pages/P306.md"),
+        Code::P307 => include_str!("pages/P307.md"),
+        Code::P308 => include_str!("pages/P308.md"),
+        Code::P309 => include_str!("pages/P309.md"),
+        Code::P310 => include_str!("pages/P310.md"),
+        Code::P311 => include_str!("pages/P311.md"),
         Code::S401 => include_str!("pages/S401.md"),
         Code::S402 => include_str!("pages/S402.md"),
         Code::S406 => include_str!("pages/S406.md"),
@@ -33,5 +39,6 @@ pub(super) fn page(code: Code) -> &'static str {
         Code::E502 => include_str!("pages/E502.md"),
         Code::E504 => include_str!("pages/E504.md"),
         Code::E508 => include_str!("pages/E508.md"),
+        Code::E511 => include_str!("pages/E511.md"),
     }
 }

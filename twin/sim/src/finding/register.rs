@@ -75,10 +75,16 @@ pub enum Code {
     C207,
     C208,
     P301,
+    P302,
     P303,
     P304,
     P305,
     P306,
+    P307,
+    P308,
+    P309,
+    P310,
+    P311,
     S401,
     S402,
     S406,
@@ -86,11 +92,12 @@ pub enum Code {
     E502,
     E504,
     E508,
+    E511,
 }
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 35] = [
         Self::R101,
         Self::R102,
         Self::R103,
@@ -108,10 +115,16 @@ impl Code {
         Self::C207,
         Self::C208,
         Self::P301,
+        Self::P302,
         Self::P303,
         Self::P304,
         Self::P305,
         Self::P306,
+        Self::P307,
+        Self::P308,
+        Self::P309,
+        Self::P310,
+        Self::P311,
         Self::S401,
         Self::S402,
         Self::S406,
@@ -119,6 +132,7 @@ impl Code {
         Self::E502,
         Self::E504,
         Self::E508,
+        Self::E511,
     ];
 
     /// The code as users write it.
@@ -141,10 +155,16 @@ impl Code {
             Self::C207 => "C207",
             Self::C208 => "C208",
             Self::P301 => "P301",
+            Self::P302 => "P302",
             Self::P303 => "P303",
             Self::P304 => "P304",
             Self::P305 => "P305",
             Self::P306 => "P306",
+            Self::P307 => "P307",
+            Self::P308 => "P308",
+            Self::P309 => "P309",
+            Self::P310 => "P310",
+            Self::P311 => "P311",
             Self::S401 => "S401",
             Self::S402 => "S402",
             Self::S406 => "S406",
@@ -152,6 +172,7 @@ impl Code {
             Self::E502 => "E502",
             Self::E504 => "E504",
             Self::E508 => "E508",
+            Self::E511 => "E511",
         }
     }
 
@@ -189,10 +210,16 @@ impl Code {
             Self::C207 => "no collision-free transit found",
             Self::C208 => "bead laid through an earlier one",
             Self::P301 => "strand sags behind the nozzle",
+            Self::P302 => "strand over-fed or over-drawn",
             Self::P303 => "set strand sags under its own weight",
             Self::P304 => "shrinkage moves the free end",
             Self::P305 => "core of the strand stays uncured",
             Self::P306 => "strand sets too far behind the nozzle",
+            Self::P307 => "bead too wide or too narrow",
+            Self::P308 => "light cures resin on the nozzle",
+            Self::P309 => "strand laid against the rules of the process",
+            Self::P310 => "bond at a node too weak",
+            Self::P311 => "prime, overrun or dwell missing",
             Self::S401 => "node is not where the nozzle expects it",
             Self::S402 => "strand printed on nothing",
             Self::S406 => "finished part gives way under its loads",
@@ -200,6 +227,7 @@ impl Code {
             Self::E502 => "hose pulled or twisted too far",
             Self::E504 => "program takes too long",
             Self::E508 => "calibration leaves too much doubt",
+            Self::E511 => "material waits too long",
         }
     }
 
@@ -213,7 +241,9 @@ impl Code {
             | Self::C203
             | Self::C204
             | Self::C205
-            | Self::C206 => Bound::Lower,
+            | Self::C206
+            | Self::P310
+            | Self::P311 => Bound::Lower,
             _ => Bound::Upper,
         }
     }
@@ -230,10 +260,16 @@ impl Code {
             | Self::C207
             | Self::S402
             | Self::C208
+            | Self::P302
+            | Self::P307
+            | Self::P308
+            | Self::P309
+            | Self::P310
+            | Self::P311
             | Self::E502 => "1",
             Self::R102 => "rad",
             Self::E501 => "kg",
-            Self::E504 => "s",
+            Self::E504 | Self::E511 => "s",
             _ => "m",
         }
     }

@@ -1,13 +1,14 @@
-//! Strand by strand: what holds it, what the process makes of it, what that is held against.
+//! Strand by strand: what holds it, what the process makes of it.
 
+use super::course::{course, gravity_across};
+use super::judging;
 use crate::cell::{Job, Join, On};
 use crate::deposit::{self, Contact, Deposit, Printed};
-use crate::finding::{Check, Code, Findings, Phase, Site, Words};
+use crate::finding::{Findings, Phase};
 use crate::growth::StrandLaw;
-use crate::interval::Interval;
 use crate::motion::{Leg, Motion};
 use crate::pose::{Point, Vector};
-use crate::process::{self, Air, Ends, Setting, StrandInput, StrandOutcome};
+use crate::process::{self, Air, Ends, StrandInput, StrandOutcome};
 use crate::toolpath::Path;
 
 /// What became of one strand.
@@ -46,7 +47,7 @@ pub(super) fn make(
         .zip(&by_strand)
         .map(|(printed, contacts)| {
             let result = make_one(job, &paths[printed.strand], printed, contacts, motion);
-            judge(job, printed, &result, findings);
+            judging::judge(job, printed, &result, findings);
             result
         })
         .collect()
@@ -135,7 +136,8 @@ fn make_one(
     let Hold { ends, span_m, start_held } = hold(job, printed, contacts);
     let is_print = |leg: &&Leg| leg.phase == Phase::Print && leg.strand == Some(printed.strand);
     let leg = motion.legs.iter().find(is_print);
-    let (across_m_s2, down) = gravity(job, path, leg);
+    let course = course(job, path, leg);
+    let (across_m_s2, down) = gravity_across(&course);
     let (speed_m_s, flow_m3_s) = mean_speed_and_flow(path);
     let input = StrandInput {
         length_m: path.length_m,
@@ -215,27 +217,6 @@ fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> Hold {
     Hold { ends: Ends::BothHeld, span_m, start_held }
 }
 
-/// Largest component of gravity across the strand while it is printed, and its direction at that
-/// place, in part axes: the bed may turn.
-fn gravity(job: &Job, path: &Path, leg: Option<&Leg>) -> (f64, Vector) {
-    let chain = &job.cell.robot.arm.chain;
-    let at_rest = job.gravity_in_part(&chain.forward(&job.cell.home));
-    let mut worst = (0.0, at_rest);
-    for sample in &path.samples {
-        let moment = leg.and_then(|leg| {
-            let k = leg.moments.partition_point(|moment| moment.at_m < sample.at_m - 1e-12);
-            leg.moments.get(k)
-        });
-        let g = moment.map_or(at_rest, |moment| job.gravity_in_part(&chain.forward(&moment.q)));
-        let across_m_s2 = (g - sample.tangent * g.dot(&sample.tangent)).norm();
-        if across_m_s2 > worst.0 {
-            worst = (across_m_s2, g);
-        }
-    }
-    let length = worst.1.norm();
-    (worst.0, if length > 0.0 { worst.1 / length } else { Vector::zeros() })
-}
-
 /// What the structure needs to know. The strain of a strand whose end is free is its end-point
 /// error (P304) and loads nothing; that of a strand on a form or between joints is locked in.
 pub(super) fn law(job: &Job, result: &StrandResult) -> StrandLaw {
@@ -255,152 +236,4 @@ pub(super) fn law(job: &Job, result: &StrandResult) -> StrandLaw {
         strength_pa: material.strength_pa.nominal,
         bond_fraction: material.bond_fraction.nominal,
     }
-}
-
-struct Judge<'a> {
-    job: &'a Job,
-    printed: &'a Printed,
-    result: &'a StrandResult,
-}
-
-fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Findings) {
-    let this = Judge { job, printed, result };
-    let (limits, outcome) = (&job.limits, &result.outcome);
-    this.start(findings);
-    if result.input.ends != Ends::Resting {
-        this.hold(Code::P301, outcome.sag_nozzle_m, limits.sag_m, None, findings, |mm| {
-            (
-                format!("sags {mm} behind the nozzle before it is set"),
-                slower(job, limits.sag_m, outcome),
-            )
-        });
-        this.hold(Code::P303, outcome.sag_set_m, limits.sag_m, None, findings, |mm| {
-            (
-                format!("sags {mm} under its own weight once set"),
-                "shorten the span or thicken the bead".to_owned(),
-            )
-        });
-    }
-    // A melt may set far behind the nozzle as long as it does not sag there, but set it must.
-    let by_light_or_clock = !matches!(job.material.setting, Setting::Thermoplastic(_));
-    let sets = outcome.set_distance_m.nominal.is_finite();
-    if !sets || (by_light_or_clock && result.input.ends != Ends::Resting) {
-        this.hold(
-            Code::P306,
-            outcome.set_distance_m,
-            limits.set_distance_m,
-            None,
-            findings,
-            |mm| {
-                if !sets {
-                    let hint = "the air is too hot for a melt, or no light reaches a resin: see `air_c`, and the tool";
-                    return ("never sets here".to_owned(), hint.to_owned());
-                }
-                let share = limits.set_distance_m / outcome.set_distance_m.nominal;
-                let speed = result.input.speed_m_s * 1e3 * share;
-                (
-                    format!("sets {mm} behind the nozzle"),
-                    format!("print at {speed:.2} mm/s, or light it harder"),
-                )
-            },
-        );
-    }
-    if result.input.ends == Ends::StartHeld {
-        this.hold(Code::P304, outcome.end_miss_m, limits.node_miss_m, None, findings, |mm| {
-            (
-                format!("loses {mm} at its free end by shrinkage still to come"),
-                "wait at the end before leaving it, or travel further by that much".to_owned(),
-            )
-        });
-    }
-    if let Some(core_m) = outcome.uncured_core_m {
-        let radius_m = outcome.bead_diameter_m.nominal / 2.0;
-        let [warn, stop] = limits.uncured_share.map(|share| share * radius_m);
-        this.hold(Code::P305, core_m, stop, Some(warn), findings, |mm| {
-            let words = format!(
-                "keeps an uncured core of {mm} in a bead of {:.2} mm radius",
-                radius_m * 1e3
-            );
-            (words, "print slower, add light, or plan a post-cure".to_owned())
-        });
-    }
-}
-
-/// The speed at which the sag behind the nozzle (its high end, if only that is past the limit)
-/// would be at its limit: it grows as v⁴.
-fn slower(job: &Job, limit_m: f64, outcome: &StrandOutcome) -> String {
-    let Interval { nominal, high, .. } = outcome.sag_nozzle_m;
-    let past_m = if nominal > limit_m { nominal } else { high };
-    let ratio = (limit_m / past_m).powf(0.25);
-    let jet = if job.cell.tool.air_jet.is_some() { "more air" } else { "an air jet" };
-    format!(
-        "print at {:.0} % of this speed or slower (sag goes with its fourth power), or with {jet}",
-        ratio * 100.0
-    )
-}
-
-impl Judge<'_> {
-    /// S402: a strand that begins where nothing holds it.
-    fn start(&self, findings: &mut Findings) {
-        let (strand, time_s) = (self.result.strand, Some(self.printed.born_s));
-        let site = Site::strand(strand, 0.0).at(self.printed.as_planned[0]);
-        findings.forbid(Code::S402, !self.result.start_held, site, time_s, || Words {
-            message: format!("strand `{}` begins in free air", self.job.strands[strand].id),
-            hint:
-                "start it on the bed or on a strand that is there, or print it the other way round"
-                    .to_owned(),
-        });
-    }
-
-    fn hold(
-        &self,
-        code: Code,
-        measured: Interval,
-        limit: f64,
-        warn_limit: Option<f64>,
-        findings: &mut Findings,
-        words: impl FnOnce(String) -> (String, String),
-    ) {
-        let length_m = self.printed.at_m[self.printed.at_m.len() - 1];
-        let (at_m, point) = match code {
-            Code::P304 => (length_m, self.printed.as_planned[self.printed.as_planned.len() - 1]),
-            _ => (length_m / 2.0, along(self.printed, length_m / 2.0)),
-        };
-        let site = Site::strand(self.result.strand, at_m).at(point);
-        let time_s = Some(self.printed.born_s);
-        findings.check(
-            Check { code, measured: finite(measured), limit, warn_limit, site, time_s },
-            || {
-                let id = &self.job.strands[self.result.strand].id;
-                let Interval { nominal, low, high } = measured;
-                let range = format!(
-                    "{} ({} to {})",
-                    millimetres(nominal),
-                    millimetres(low),
-                    millimetres(high)
-                );
-                let (message, hint) = words(range);
-                Words { message: format!("strand `{id}` {message}"), hint }
-            },
-        );
-    }
-}
-
-fn millimetres(length_m: f64) -> String {
-    if length_m < ENDLESS_M { format!("{:.2} mm", length_m * 1e3) } else { "no end".to_owned() }
-}
-
-/// A length past any limit in use, that stands for one without end.
-const ENDLESS_M: f64 = 1e3;
-
-/// Reports hold finite numbers: an endless value becomes one kilometre, past any limit in use.
-fn finite(measured: Interval) -> Interval {
-    let cap = |value: f64| if value.is_nan() { ENDLESS_M } else { value.min(ENDLESS_M) };
-    Interval { nominal: cap(measured.nominal), low: cap(measured.low), high: cap(measured.high) }
-}
-
-fn along(printed: &Printed, at_m: f64) -> Point {
-    let k = printed.at_m.partition_point(|&x| x < at_m).clamp(1, printed.at_m.len() - 1);
-    let share = (at_m - printed.at_m[k - 1]) / (printed.at_m[k] - printed.at_m[k - 1]);
-    printed.as_planned[k - 1] + (printed.as_planned[k] - printed.as_planned[k - 1]) * share
 }

@@ -3,6 +3,8 @@
 //! [`preflight`] reads top to bottom as the path of the data.
 
 mod clear;
+mod course;
+mod judging;
 mod making;
 mod program;
 mod totals;

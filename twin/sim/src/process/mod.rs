@@ -5,6 +5,7 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod course;
 pub mod cure;
 pub mod elastica;
 pub mod gel;
@@ -18,6 +19,7 @@ pub mod soft;
 pub mod strand;
 pub mod viscosity;
 
+pub use course::{Course, Station, Told};
 pub use history::History;
 pub use light::LightRing;
 pub use material::{
