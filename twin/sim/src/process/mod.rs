@@ -5,18 +5,22 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod coiling;
 pub mod course;
 pub mod cure;
 pub mod elastica;
+pub mod feed;
 pub mod gel;
 pub mod heat;
 pub mod history;
 pub mod light;
 pub mod material;
 pub mod sag;
+pub mod section;
 pub mod shrinkage;
 pub mod soft;
 pub mod strand;
+pub mod threads;
 pub mod viscosity;
 
 pub use course::{Course, Station, Told};
@@ -34,8 +38,16 @@ mod reference;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_bead;
+#[cfg(test)]
+mod tests_feed;
+#[cfg(test)]
 mod tests_heat;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]
+mod tests_section;
+#[cfg(test)]
 mod tests_strand;
+#[cfg(test)]
+mod tests_threads;
