@@ -135,7 +135,7 @@ fn neck_slope(square: f64) -> f64 {
 ///
 /// The growth is that of two spheres of unchanged volume, as the law of the angle is.
 pub fn neck_half_width_m(radius_m: f64, angle_rad: f64) -> f64 {
-    let (sin, cos) = angle_rad.max(0.0).min(FRAC_PI_2).sin_cos();
+    let (sin, cos) = angle_rad.clamp(0.0, FRAC_PI_2).sin_cos();
     let grown = (4.0 / ((1.0 + cos).powi(2) * (2.0 - cos))).cbrt();
     radius_m * grown * sin
 }

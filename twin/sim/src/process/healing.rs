@@ -111,8 +111,9 @@ pub fn two_part_bond(substrate_age_s: f64, done_s: f64, tacky: f64) -> Bond {
 
 /// A share that is not a number counts as all reacted.
 fn reacted_bond(reacted: f64, tacky: f64) -> Bond {
-    let sites = (1.0 - reacted).max(0.0).min(1.0);
-    let degree = (sites + (1.0 - sites) * tacky).max(0.0).min(1.0);
+    let share = |x: f64| if x > 0.0 { x.min(1.0) } else { 0.0 };
+    let sites = share(1.0 - reacted);
+    let degree = share(sites + (1.0 - sites) * tacky);
     let limited_by = if degree >= 1.0 { BondLimit::Nothing } else { BondLimit::Reacted };
     Bond { degree, limited_by }
 }

@@ -159,7 +159,8 @@ impl Scene<'_> {
         };
         let reach_m = self.jet.map_or(0.0, |jet| jet.reach_m);
         let far_m = 10.0 * self.tip.radius_m.max(reach_m).max(self.passing.gap_m);
-        let half_chord = |radius_m: f64| (radius_m * radius_m - across_m * across_m).max(0.0).sqrt();
+        let half_chord =
+            |radius_m: f64| (radius_m * radius_m - across_m * across_m).max(0.0).sqrt();
         let (face_m, blown_m) = (half_chord(self.tip.radius_m), half_chord(reach_m));
         let mut marks = [
             -far_m,
@@ -227,13 +228,15 @@ impl Scene<'_> {
             to_k + (from_k - to_k) * (-sum * time_s / self.capacity_j_mk()).exp()
         };
         let middle_k = after(self.draw(from_k, offset_m), 0.5 * step_s);
-        let to_k = after(self.draw(middle_k, offset_m), step_s);
-        let (low_k, high_k) = (from_k.min(to_k), from_k.max(to_k));
+        let (sum, drawn_to_k) = self.draw(middle_k, offset_m);
+        let to_k = after((sum, drawn_to_k), step_s);
         let glass_k = self.neighbour.glass_k;
-        if low_k > glass_k {
+        if from_k > glass_k && to_k > glass_k {
             section.hot_s += step_s;
-        } else if high_k > glass_k {
-            section.hot_s += step_s * (high_k - glass_k) / (high_k - low_k);
+        } else if from_k > glass_k || to_k > glass_k {
+            let folds = ((from_k - drawn_to_k) / (glass_k - drawn_to_k)).ln();
+            let crossing_s = (folds * self.capacity_j_mk() / sum).max(0.0).min(step_s);
+            section.hot_s += if to_k > glass_k { step_s - crossing_s } else { crossing_s };
         }
         section.now_k = to_k;
         section.peak_k = section.peak_k.max(to_k);

@@ -125,7 +125,13 @@ pub fn remaining_by_cooling(
 /// `ε` the linear shrinkage after the gel point, all of it still to come before. In step with conversion: bonds made
 /// are volume lost. For a clock, take ages instead of degrees of cure.
 pub fn remaining_by_cure(strain: f64, cure: f64, gel_cure: f64, full_cure: f64) -> f64 {
-    strain * ((full_cure - cure) / (full_cure - gel_cure)).max(0.0).min(1.0)
+    if cure <= gel_cure {
+        strain
+    } else if cure >= full_cure {
+        0.0
+    } else {
+        strain * (full_cure - cure) / (full_cure - gel_cure)
+    }
 }
 
 /// Linear shrinkage of a volume that shrinks alike in all directions: `1 − (1 − v)^⅓`.

@@ -1,11 +1,11 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::interval::Interval;
 use crate::process::contact::{Contact, effusivity, front_s, interface_k};
 use crate::process::heat::{cooling_rate_per_s, effective_h_w_m2k};
 use crate::process::tests::{close, within};
 use crate::process::viscosity::CrossWlf;
-use crate::interval::Interval;
 
 /// P400 ABS: materials_reference.json abs.weld_time, status memory.
 const P400: WeldTime = WeldTime { prefactor_s: 1.08e-47, activation_j_mol: 388.7e3 };
@@ -46,10 +46,8 @@ fn healing_converges_at_second_order_in_the_samples() {
     let curve = |age: f64| 295.15 + 138.0 * (-0.3 * age).exp();
     let end_s = 6.0;
     let share = |n: usize| {
-        let samples: Vec<_> = (0..=n)
-            .map(|i| end_s * i as f64 / n as f64)
-            .map(|age| (age, curve(age)))
-            .collect();
+        let samples: Vec<_> =
+            (0..=n).map(|i| end_s * i as f64 / n as f64).map(|age| (age, curve(age))).collect();
         healing_degree(&samples, ABS_GLASS_K, |t| 1e4 * P400.at_s(t)).powi(4)
     };
     let fine = 400_000;
