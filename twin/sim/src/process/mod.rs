@@ -4,17 +4,21 @@
 //! section, the time since it left the nozzle. Reference: `process-physics.md`; what it calls not
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
+pub mod age_samples;
 pub mod bead;
 pub mod coiling;
+pub mod contact;
 pub mod course;
 pub mod cure;
 pub mod elastica;
 pub mod feed;
 pub mod gel;
+pub mod healing;
 pub mod heat;
 pub mod history;
 pub mod light;
 pub mod material;
+pub mod reheat;
 pub mod sag;
 pub mod section;
 pub mod shrinkage;
