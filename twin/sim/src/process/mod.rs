@@ -5,6 +5,7 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod cooled;
 pub mod cure;
 pub mod elastica;
 pub mod gel;
@@ -12,6 +13,7 @@ pub mod heat;
 pub mod history;
 pub mod light;
 pub mod material;
+pub mod radial;
 pub mod sag;
 pub mod shrinkage;
 pub mod soft;
