@@ -107,11 +107,11 @@ impl Cooled {
     /// Temperature of the surface at an age, K.
     pub fn surface_at_k(&self, age_s: f64) -> f64 {
         let last = self.ages_s.len() - 1;
-        if age_s >= self.ages_s[last] {
+        if !(age_s < self.ages_s[last]) {
             return self.tail_k(self.surface_k[last], age_s);
         }
         let i = self.piece_at(age_s);
-        let (from_s, to_s) = (self.ages_s[i], self.ages_s[i + 1]);
+        let [from_s, to_s, ..] = self.ages_s[i..] else { return self.surface_k[i] };
         let share = ((age_s - from_s) / (to_s - from_s)).max(0.0);
         self.surface_k[i] + share * (self.surface_k[i + 1] - self.surface_k[i])
     }
@@ -134,9 +134,13 @@ impl Cooled {
     fn excess_from_start_k_s(&self, age_s: f64) -> f64 {
         let last = self.ages_s.len() - 1;
         let after_s = age_s - self.ages_s[last];
-        if after_s >= 0.0 {
-            let decay = self.tail_per_s * after_s;
-            let time_s = if decay > 0.0 { after_s * (-(-decay).exp_m1() / decay) } else { after_s };
+        if !(after_s < 0.0) {
+            let rate_per_s = self.tail_per_s;
+            let time_s = if rate_per_s > 0.0 {
+                -(-rate_per_s * after_s).exp_m1() / rate_per_s
+            } else {
+                after_s
+            };
             return self.excess_k_s[last] + (self.mean_k[last] - self.air_k) * time_s;
         }
         let before_s = age_s - self.ages_s[0];

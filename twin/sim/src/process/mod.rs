@@ -4,6 +4,7 @@
 //! section, the time since it left the nozzle. Reference: `process-physics.md`; what it calls not
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
+pub mod air_side;
 pub mod bead;
 pub mod cooled;
 pub mod cure;
@@ -11,6 +12,7 @@ pub mod elastica;
 pub mod gel;
 pub mod heat;
 pub mod history;
+pub mod jet;
 pub mod light;
 pub mod material;
 pub mod radial;
@@ -18,6 +20,7 @@ pub mod sag;
 pub mod shrinkage;
 pub mod soft;
 pub mod strand;
+pub mod tait;
 pub mod viscosity;
 
 pub use history::History;
@@ -36,3 +39,5 @@ mod tests_heat;
 mod tests_sag;
 #[cfg(test)]
 mod tests_strand;
+#[cfg(test)]
+mod tests_thermal_anchor;

@@ -99,32 +99,30 @@ pub fn cool(strand: &RoundStrand, start_k: &[f64], around: &Surroundings, span: 
     if !is_sound(strand, start_k, around, span) {
         return Cooled::unknown(around.air_k, span.from_s);
     }
-    let content = start_k.iter().map(|&t| content_j_m3(strand, t)).collect();
-    let mut state = State { age_s: span.from_s, content, balance: HeatBalance::default() };
-    let mut now = Look::at(strand, around, &state.content, state.age_s);
-    let mut nodes = vec![now.node(&state)];
-    let mut step_s = first_step_s(strand, &now);
+    let mut run = Run::new(strand, around, start_k, span.from_s);
+    let mut nodes = Vec::with_capacity(128);
+    nodes.push(run.node());
+    let mut step_s = run.first_step_s();
     for attempt in 0..MAX_STEPS {
-        let left_s = span.until_s - state.age_s;
-        if !(left_s > 0.0) || now.temperature_k.iter().all(|&t| t <= span.stop_k) {
+        let left_s = span.until_s - run.age_s;
+        if !(left_s > 0.0) || run.now.temperature_k.iter().all(|&t| t <= span.stop_k) {
             break;
         }
         let late = attempt >= MAX_STEPS / 2;
         let floor_s = if late { left_s / (MAX_STEPS - attempt) as f64 } else { 0.0 };
         let tried_s = step_s.min(span.longest_step_s).max(floor_s).min(left_s);
-        let (next, error_k) = step(strand, around, &state, &now, tried_s);
+        let error_k = run.try_step(tried_s);
         step_s = tried_s * (0.9 * (span.tolerance_k / error_k).sqrt()).clamp(0.3, 2.5);
         if error_k > span.tolerance_k && tried_s > floor_s {
             continue;
         }
-        state = next;
-        now = Look::at(strand, around, &state.content, state.age_s);
-        nodes.push(now.node(&state));
+        run.accept(if tried_s < left_s { run.age_s + tried_s } else { span.until_s });
+        nodes.push(run.node());
         if !error_k.is_finite() {
             break;
         }
     }
-    Cooled::new(around.air_k, &nodes, now.temperature_k, state.balance)
+    Cooled::new(around.air_k, &nodes, run.now.temperature_k, run.balance)
 }
 
 fn is_sound(strand: &RoundStrand, start_k: &[f64], around: &Surroundings, span: &Span) -> bool {
@@ -158,23 +156,8 @@ fn temperature_and_capacity(strand: &RoundStrand, content_j_m3: f64) -> (f64, f6
     (ZERO_C_K + 2.0 * specific / (a + cp), strand.density_kg_m3 * cp)
 }
 
-/// A tenth of the time in which heat crosses the last ring, s.
-fn first_step_s(strand: &RoundStrand, now: &Look) -> f64 {
-    let rings = now.temperature_k.len();
-    let ring_m = 0.25 * strand.diameter_m / rings as f64;
-    let last = rings - 1;
-    let conductivity = strand.conductivity_w_mk.at(now.temperature_k[last]).max(f64::MIN_POSITIVE);
-    0.1 * ring_m * ring_m * now.capacity[last] / conductivity
-}
-
-/// Where a run stands; heat content per volume, J/m³ over that at 0 °C.
-struct State {
-    age_s: f64,
-    content: Vec<f64>,
-    balance: HeatBalance,
-}
-
 /// What follows from the heat contents at an age.
+#[derive(Default)]
 struct Look {
     temperature_k: Vec<f64>,
     /// J/(m³ K).
@@ -191,50 +174,163 @@ struct Look {
 }
 
 impl Look {
-    fn at(strand: &RoundStrand, around: &Surroundings, content: &[f64], age_s: f64) -> Self {
+    /// Looks anew, keeping the room of the last look.
+    fn fill(&mut self, strand: &RoundStrand, around: &Surroundings, content: &[f64], age_s: f64) {
         let rings = content.len();
         let last = rings - 1;
-        let (temperature_k, capacity): (Vec<f64>, Vec<f64>) =
-            content.iter().map(|&h| temperature_and_capacity(strand, h)).unzip();
+        self.temperature_k.clear();
+        self.capacity.clear();
+        self.pass.clear();
+        self.rate.clear();
+        for &h in content {
+            let (temperature_k, capacity) = temperature_and_capacity(strand, h);
+            self.temperature_k.push(temperature_k);
+            self.capacity.push(capacity);
+        }
+        let t = &self.temperature_k;
         let conductivity = |t: f64| strand.conductivity_w_mk.at(t).max(0.0);
         let radius_m = 0.5 * strand.diameter_m;
-        let unit = 4.0 * rings as f64 / (radius_m * radius_m);
-        let mut pass: Vec<f64> = temperature_k
-            .windows(2)
-            .enumerate()
-            .map(|(i, t)| unit * (i + 1) as f64 * conductivity(0.5 * (t[0] + t[1])))
-            .collect();
-        let outer_k = temperature_k[last];
-        let drawn_k = 1.5 * outer_k - 0.5 * temperature_k[last.saturating_sub(1)];
+        let outer_k = t[last];
+        let drawn_k = 1.5 * outer_k - 0.5 * t[last.saturating_sub(1)];
         let (low_k, high_k) = (outer_k.min(around.air_k), outer_k.max(around.air_k));
         let h = (around.h_w_m2k)(drawn_k.max(low_k).min(high_k), age_s);
         // What stays of the last ring's excess at the surface: the ring's outer half stands between.
         let inner_h = 4.0 * rings as f64 * conductivity(outer_k) / radius_m;
         let share = inner_h / (inner_h + h);
-        pass.push(2.0 * rings as f64 / radius_m * h * share);
-        let source = (around.source_w_m3)(age_s);
-        let loss = pass[last] * (outer_k - around.air_k);
-        let mut rate = vec![source; rings];
+        self.source = (around.source_w_m3)(age_s);
+        let unit = 4.0 * rings as f64 / (radius_m * radius_m);
+        let mut from_inside = 0.0;
         for i in 0..last {
-            let heat = pass[i] * (temperature_k[i] - temperature_k[i + 1]);
-            rate[i] -= heat;
-            rate[i + 1] += heat;
+            let pass = unit * (i + 1) as f64 * conductivity(0.5 * (t[i] + t[i + 1]));
+            let heat = pass * (t[i] - t[i + 1]);
+            self.pass.push(pass);
+            self.rate.push(self.source + from_inside - heat);
+            from_inside = heat;
         }
-        rate[last] -= loss;
-        let surface_k = around.air_k + share * (outer_k - around.air_k);
-        Self { temperature_k, capacity, pass, rate, loss, source, surface_k }
+        let pass = 2.0 * rings as f64 / radius_m * h * share;
+        self.loss = pass * (outer_k - around.air_k);
+        self.pass.push(pass);
+        self.rate.push(self.source + from_inside - self.loss);
+        self.surface_k = around.air_k + share * (outer_k - around.air_k);
+    }
+}
+
+/// One run: heat contents per volume, J/m³ over those at 0 °C, and the room the steps need.
+struct Run<'a> {
+    strand: &'a RoundStrand,
+    around: &'a Surroundings<'a>,
+    age_s: f64,
+    content: Vec<f64>,
+    now: Look,
+    balance: HeatBalance,
+    ahead: Look,
+    first: Vec<f64>,
+    second: Vec<f64>,
+    next_content: Vec<f64>,
+    next_balance: HeatBalance,
+    solver: Tridiagonal,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        strand: &'a RoundStrand,
+        around: &'a Surroundings<'a>,
+        start_k: &[f64],
+        age_s: f64,
+    ) -> Self {
+        let content: Vec<f64> = start_k.iter().map(|&t| content_j_m3(strand, t)).collect();
+        let mut now = Look::default();
+        now.fill(strand, around, &content, age_s);
+        let zeros = vec![0.0; content.len()];
+        Self {
+            strand,
+            around,
+            age_s,
+            content,
+            now,
+            balance: HeatBalance::default(),
+            ahead: Look::default(),
+            first: zeros.clone(),
+            second: zeros.clone(),
+            next_content: zeros.clone(),
+            next_balance: HeatBalance::default(),
+            solver: Tridiagonal::default(),
+        }
     }
 
-    fn node(&self, state: &State) -> Node {
-        let slope: Vec<f64> = self.rate.iter().zip(&self.capacity).map(|(r, c)| r / c).collect();
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    /// A tenth of the time in which heat crosses the last ring, s.
+    fn first_step_s(&self) -> f64 {
+        let last = self.content.len() - 1;
+        let ring_m = 0.25 * self.strand.diameter_m / self.content.len() as f64;
+        let conductivity = self.strand.conductivity_w_mk.at(self.now.temperature_k[last]);
+        0.1 * ring_m * ring_m * self.now.capacity[last] / conductivity
+    }
+
+    /// One Rosenbrock–W step (ROS2, Verwer et al. 1999), kept aside; returns the error of its first-order
+    /// part, K.
+    ///
+    /// `(C − γτG) κ1 = τ F(H, a)`, `(C − γτG) κ2 = τ F(H + C κ1, a + τ) − 2 C κ1`,
+    /// `H' = H + C (3 κ1 + κ2)/2`; of second order and free of loss whatever `C` and `G` lag behind.
+    fn try_step(&mut self, step_s: f64) -> f64 {
+        let (now, rings) = (&self.now, self.content.len());
+        self.solver.fill(now, GAMMA * step_s);
+        for i in 0..rings {
+            self.first[i] = step_s * now.rate[i];
+        }
+        self.solver.solve(&mut self.first);
+        for i in 0..rings {
+            self.next_content[i] = self.content[i] + now.capacity[i] * self.first[i];
+        }
+        self.ahead.fill(self.strand, self.around, &self.next_content, self.age_s + step_s);
+        for i in 0..rings {
+            self.second[i] = step_s * self.ahead.rate[i] - 2.0 * now.capacity[i] * self.first[i];
+        }
+        self.solver.solve(&mut self.second);
+        let (mut error_k, mut gained) = (0.0, 0.0);
+        for i in 0..rings {
+            let (first, second) = (self.first[i], self.second[i]);
+            let gain = now.capacity[i] * (1.5 * first + 0.5 * second);
+            self.next_content[i] = self.content[i] + gain;
+            gained += gain;
+            let error = 0.5 * (first + second).abs();
+            error_k = if error <= error_k { error_k } else { error };
+        }
+        // Heat through the surface by the same two stages, from the surface's own terms alone.
+        let (ahead, last) = (&self.ahead, rings - 1);
+        let implicit = GAMMA * step_s * now.pass[last];
+        let out = step_s * now.loss + implicit * self.first[last];
+        let out_ahead = step_s * ahead.loss + implicit * self.second[last] - 2.0 * out;
+        let strand_m2 = PI * self.strand.diameter_m * self.strand.diameter_m / 4.0;
+        let ring_m2 = strand_m2 / rings as f64;
+        let before = &self.balance;
+        self.next_balance = HeatBalance {
+            lost_j_m: before.lost_j_m + ring_m2 * (1.5 * out + 0.5 * out_ahead),
+            made_j_m: before.made_j_m + strand_m2 * step_s * 0.5 * (now.source + ahead.source),
+            content_lost_j_m: before.content_lost_j_m - ring_m2 * gained,
+        };
+        error_k
+    }
+
+    fn accept(&mut self, age_s: f64) {
+        self.age_s = age_s;
+        std::mem::swap(&mut self.content, &mut self.next_content);
+        self.balance = self.next_balance;
+        self.now.fill(self.strand, self.around, &self.content, age_s);
+    }
+
+    fn node(&self) -> Node {
+        let (now, rings) = (&self.now, self.content.len());
+        let slope = |i: usize| now.rate[i] / now.capacity[i];
+        let mean_k = now.temperature_k.iter().sum::<f64>() / rings as f64;
+        let mean_slope_k_s = (0..rings).map(slope).sum::<f64>() / rings as f64;
+        let near_axis = |i: usize| slope(i.min(rings - 1));
         Node {
-            age_s: state.age_s,
-            mean_k: mean(&self.temperature_k),
-            mean_slope_k_s: mean(&slope),
-            core_k: at_axis(&self.temperature_k),
-            core_slope_k_s: at_axis(&slope),
-            surface_k: self.surface_k,
+            age_s: self.age_s,
+            mean_k,
+            mean_slope_k_s,
+            core_k: at_axis(&now.temperature_k),
+            core_slope_k_s: at_axis(&[0, 1, 2].map(near_axis)[..rings.min(3)]),
+            surface_k: now.surface_k,
         }
     }
 }
@@ -249,81 +345,43 @@ fn at_axis(rings: &[f64]) -> f64 {
     }
 }
 
-/// One Rosenbrock–W step (ROS2, Verwer et al. 1999) and the error of its first-order part, K.
-///
-/// `(C − γτG) κ1 = τ F(H, a)`, `(C − γτG) κ2 = τ F(H + C κ1, a + τ) − 2 C κ1`,
-/// `H' = H + C (3 κ1 + κ2)/2`; of second order and free of loss whatever `C` and `G` lag behind.
-fn step(
-    strand: &RoundStrand,
-    around: &Surroundings,
-    state: &State,
-    now: &Look,
-    step_s: f64,
-) -> (State, f64) {
-    let last = state.content.len() - 1;
-    let solver = Tridiagonal::new(now, GAMMA * step_s);
-    let first = solver.solve(now.rate.iter().map(|r| step_s * r).collect());
-    let middle: Vec<f64> =
-        (0..=last).map(|i| state.content[i] + now.capacity[i] * first[i]).collect();
-    let age_s = state.age_s + step_s;
-    let ahead = Look::at(strand, around, &middle, age_s);
-    let right = (0..=last).map(|i| step_s * ahead.rate[i] - 2.0 * now.capacity[i] * first[i]);
-    let second = solver.solve(right.collect());
-    let content = (0..=last)
-        .map(|i| state.content[i] + now.capacity[i] * (1.5 * first[i] + 0.5 * second[i]))
-        .collect();
-    let error_k = first.iter().zip(&second).fold(0.0, |worst: f64, (a, b)| {
-        let error = 0.5 * (a + b).abs();
-        if error <= worst { worst } else { error }
-    });
-    // Heat through the surface by the same two stages, from the surface's own terms alone.
-    let implicit = GAMMA * step_s * now.pass[last];
-    let out_first = step_s * now.loss + implicit * first[last];
-    let made_first = step_s * now.source;
-    let out_second = step_s * ahead.loss + implicit * second[last] - 2.0 * out_first;
-    let made_second = step_s * ahead.source - 2.0 * made_first;
-    let ring_m2 = PI * strand.diameter_m * strand.diameter_m / 4.0 / state.content.len() as f64;
-    let before = &state.balance;
-    let gained: f64 =
-        (0..=last).map(|i| now.capacity[i] * (1.5 * first[i] + 0.5 * second[i])).sum();
-    let balance = HeatBalance {
-        lost_j_m: before.lost_j_m + ring_m2 * (1.5 * out_first + 0.5 * out_second),
-        made_j_m: before.made_j_m
-            + ring_m2 * (1.5 * made_first + 0.5 * made_second) * state.content.len() as f64,
-        content_lost_j_m: before.content_lost_j_m - ring_m2 * gained,
-    };
-    (State { age_s, content, balance }, error_k)
-}
-
 /// `C − γτG`, symmetric and diagonally dominant, taken apart once for both stages (Thomas).
+#[derive(Default)]
 struct Tridiagonal {
-    beside: Vec<f64>,
-    pivot: Vec<f64>,
+    /// What a ring's equation takes of the one inside it, and of the one outside.
+    share: Vec<f64>,
+    /// One over the pivots.
+    inverse: Vec<f64>,
 }
 
 impl Tridiagonal {
-    fn new(look: &Look, weight_s: f64) -> Self {
-        let rings = look.pass.len();
-        let beside: Vec<f64> = look.pass[..rings - 1].iter().map(|g| -weight_s * g).collect();
-        let mut pivot = Vec::with_capacity(rings);
-        for i in 0..rings {
-            let inner = if i > 0 { look.pass[i - 1] } else { 0.0 };
-            let own = look.capacity[i] + weight_s * (inner + look.pass[i]);
-            let taken = if i > 0 { beside[i - 1] * beside[i - 1] / pivot[i - 1] } else { 0.0 };
-            pivot.push(own - taken);
+    fn fill(&mut self, look: &Look, weight_s: f64) {
+        self.share.clear();
+        self.inverse.clear();
+        let (mut inner, mut taken) = (0.0, 0.0);
+        for (capacity, pass) in look.capacity.iter().zip(&look.pass) {
+            let outer = weight_s * pass;
+            let inverse = 1.0 / (capacity + inner + outer - taken);
+            let share = outer * inverse;
+            self.inverse.push(inverse);
+            self.share.push(share);
+            (inner, taken) = (outer, outer * share);
         }
-        Self { beside, pivot }
     }
 
-    fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
-        for i in 1..right.len() {
-            right[i] -= self.beside[i - 1] / self.pivot[i - 1] * right[i - 1];
+    fn solve(&self, right: &mut [f64]) {
+        let mut before = 0.0;
+        for (i, value) in right.iter_mut().enumerate() {
+            *value += before;
+            before = self.share[i] * *value;
+            *value *= self.inverse[i];
         }
-        let last = right.len() - 1;
-        right[last] /= self.pivot[last];
-        for i in (0..last).rev() {
-            right[i] = (right[i] - self.beside[i] * right[i + 1]) / self.pivot[i];
+        let mut after = 0.0;
+        for (i, value) in right.iter_mut().enumerate().rev() {
+            if i + 1 < self.share.len() {
+                *value += self.share[i] * after;
+            }
+            after = *value;
         }
-        right
     }
 }
