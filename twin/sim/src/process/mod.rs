@@ -5,9 +5,11 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod age_samples;
+pub mod air_side;
 pub mod bead;
 pub mod coiling;
 pub mod contact;
+pub mod cooled;
 pub mod course;
 pub mod cure;
 pub mod elastica;
@@ -16,14 +18,17 @@ pub mod gel;
 pub mod healing;
 pub mod heat;
 pub mod history;
+pub mod jet;
 pub mod light;
 pub mod material;
+pub mod radial;
 pub mod reheat;
 pub mod sag;
 pub mod section;
 pub mod shrinkage;
 pub mod soft;
 pub mod strand;
+pub mod tait;
 pub mod threads;
 pub mod viscosity;
 
@@ -55,3 +60,4 @@ mod tests_section;
 mod tests_strand;
 #[cfg(test)]
 mod tests_threads;
+mod tests_thermal_anchor;

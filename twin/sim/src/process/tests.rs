@@ -47,13 +47,13 @@ fn bead_mass_balance() {
 }
 
 /// PLA of materials_reference.json.
-fn pla_fit() -> CrossWlf {
+pub(super) fn pla_fit() -> CrossWlf {
     let factor = Interval::exact(1.0);
     CrossWlf { d1_pa_s: 3.317_19e9, t_star_k: 373.15, a1: 20.194, a2_k: 51.6, factor }
 }
 
 /// ABS of materials_reference.json.
-fn abs_fit() -> CrossWlf {
+pub(super) fn abs_fit() -> CrossWlf {
     CrossWlf { d1_pa_s: 9.95e11, a1: 27.322, ..pla_fit() }
 }
 

@@ -5,8 +5,8 @@ use super::reference::{eigenvalues, fourier_to};
 use super::tests::{close, within};
 
 #[test]
-fn heat_transfer_table() {
-    // NUSSELT-THIN, materials_reference.json air_cooling_h_w_m2k: Ts 160 °C, Ta 22 °C, radiation apart.
+fn nusselt_thin() {
+    // materials_reference.json air_cooling_h_w_m2k: Ts 160 °C, Ta 22 °C, radiation apart.
     let table = [
         (0.4, [57.5, 134.0, 180.0, 246.0, 376.0, 524.0, 735.0]),
         (1.0, [32.0, 80.0, 109.0, 150.0, 234.0, 328.0, 464.0]),
@@ -32,8 +32,7 @@ fn heat_transfer_table() {
 }
 
 #[test]
-fn lumped_cooling() {
-    // COOL-LUMP
+fn cool_lump() {
     let rate = heat::cooling_rate_per_s(100.0, 1040.0, 1950.0, 0.00127);
     let law = one_rate(513.15, 295.15, rate);
     close(law.time_to_s(378.15), 6.217_752_470_251_151, 1e-9);
@@ -54,24 +53,40 @@ pub(super) fn one_rate(start_k: f64, air_k: f64, rate: f64) -> heat::Cooling {
     heat::Cooling { start_k, air_k, jet_rate_per_s: rate, jet_until_s: 0.0, room_rate_per_s: rate }
 }
 
+/// First root and its amplitude at the centre.
+fn cylinder(biot: f64, zeta: f64, amplitude: f64) {
+    let (z, c) = eigenvalues(biot)[0];
+    within(z, zeta, 2e-5);
+    within(c, amplitude, 2e-5);
+}
+
 #[test]
-fn reference_cylinder() {
-    // CYL-EIGEN-*
-    for (biot, zeta, amplitude) in [
-        (0.1, 0.44168, 1.02458),
-        (0.5, 0.94077, 1.11425),
-        (1.0, 1.25578, 1.20709),
-        (2.0, 1.59945, 1.33838),
-        (5.0, 1.98981, 1.50287),
-    ] {
-        let (z, c) = eigenvalues(biot)[0];
-        within(z, zeta, 1e-5);
-        within(c, amplitude, 1e-5);
-    }
+fn cyl_eigen_bi0_1() {
+    cylinder(0.1, 0.44168, 1.02458);
+}
+
+#[test]
+fn cyl_eigen_bi0_5() {
+    cylinder(0.5, 0.94077, 1.11425);
+}
+
+#[test]
+fn cyl_eigen_bi1() {
+    cylinder(1.0, 1.25578, 1.20709);
+}
+
+#[test]
+fn cyl_eigen_bi2() {
+    cylinder(2.0, 1.59945, 1.33838);
+}
+
+#[test]
+fn cyl_eigen_bi5() {
+    cylinder(5.0, 1.98981, 1.50287);
 }
 
 /// rho, cp, k, T0, T_flow, T_glass, D mm, h; times: mean and centre to flow, mean and centre to glass.
-const RADIAL: [(&str, [f64; 8], [f64; 4]); 5] = [
+pub(super) const RADIAL: [(&str, [f64; 8], [f64; 4]); 5] = [
     (
         "ABS-1.27-100",
         [1040.0, 1950.0, 0.19, 240.0, 150.0, 105.0, 1.27, 100.0],
@@ -127,8 +142,7 @@ fn radial_cooling_and_the_lumped_law() {
 }
 
 #[test]
-fn effective_heat_transfer_error() {
-    // COOL-EFFH
+fn cool_effh() {
     for (biot, want) in [(0.1, 0.001), (0.7, 0.016), (1.5, 0.057), (3.0, 0.145)] {
         let worst = [0.7, 0.5, 0.4, 0.2]
             .map(|share: f64| {
