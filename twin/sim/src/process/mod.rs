@@ -12,6 +12,7 @@ pub mod heat;
 pub mod history;
 pub mod light;
 pub mod material;
+pub mod rod;
 pub mod sag;
 pub mod shrinkage;
 pub mod soft;
