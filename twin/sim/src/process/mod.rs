@@ -23,6 +23,7 @@ pub mod light;
 pub mod material;
 pub mod radial;
 pub mod reheat;
+pub mod rod;
 pub mod sag;
 pub mod section;
 pub mod shrinkage;

@@ -1,0 +1,285 @@
+//! One step in time.
+
+use super::ends::{Place, Redundants, Sums, by_equilibrium, by_place, determinate, settle};
+use super::sections::{Load, Piece, Section, loads, weight};
+use super::{Elastic, Hold, Strand};
+
+/// From when to when, and where the nozzle is then.
+pub(super) struct Interval {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+    pub(super) from_m: f64,
+    pub(super) to_m: f64,
+}
+
+/// What one section can do in a step: its curvature at the end is
+/// `set + flow (M_mid + M0 + V0 arm) + spring (M_end + M0' + V0' reach − was)`, primes at the end of the step.
+#[derive(Clone, Copy, Default)]
+struct Share {
+    flow: f64,
+    stretch: f64,
+    arm_m: f64,
+    load: Load,
+    spring: f64,
+    spring_stretch: f64,
+    reach_m: f64,
+    end: Load,
+    /// Moment already sprung to, where the modulus acts by rate.
+    was: [f64; 2],
+    was_pull: f64,
+    /// One for a section born in this step where the modulus acts by rate: it comes out under M0 and N.
+    newborn: f64,
+    /// Share of the flow that the yield stress leaves.
+    yields: f64,
+}
+
+/// Room for a step, kept between steps, and the redundants before.
+#[derive(Default)]
+pub(super) struct Room {
+    middle: Vec<Load>,
+    end: Vec<Load>,
+    shares: Vec<Share>,
+    /// Redundants of the step before and its length, where the same ends held.
+    pub(super) before: Option<(Redundants, f64)>,
+}
+
+/// Iterations on what yields, and the share that flows at least (so that the redundants stay finite).
+const YIELD_ROUNDS: usize = 30;
+const LEAST_FLOW: f64 = 1e-6;
+
+/// Steps the born sections of `pieces`, in time linear in their number; returns the redundants.
+///
+/// Flow: the redundants are constant over the step and such that the ends are in place at its end; each section
+/// takes its moment at the middle of its flow, by age. Spring: the redundants at the end are carried on from the
+/// steps' middles (BDF2's damping; the first step of a phase takes its own). Second order both.
+pub(super) fn step(
+    strand: &Strand,
+    pieces: &[Piece],
+    sections: &mut [Section],
+    time: &Interval,
+    hold: Hold,
+    place: &mut Place,
+    room: &mut Room,
+) -> Redundants {
+    let (middle_s, middle_m) = (0.5 * (time.from_s + time.to_s), 0.5 * (time.from_m + time.to_m));
+    let gravity = (strand.gravity_m_s2)(middle_s);
+    let far = loads(strand, pieces, sections, middle_m, gravity, &mut room.middle);
+    let mut ending = None;
+    if strand.ageing.modulus_pa.is_some() {
+        let gravity = (strand.gravity_m_s2)(time.to_s);
+        let far = loads(strand, pieces, sections, time.to_m, gravity, &mut room.end);
+        ending = determinate(hold).then(|| by_equilibrium(hold, &far, time.to_m));
+    }
+    let newest = pieces.last().map_or([0.0; 3], |p| weight(strand, p.element, gravity));
+    room.shares.clear();
+    for (i, section) in sections.iter_mut().enumerate() {
+        let mut share = flow(strand, section, time, hold);
+        // the nozzle is farther on, or less far, when this section flows than in the middle of the step
+        let (arm_m, on_m) = (middle_m - section.at_m, share.arm_m);
+        share.load = room.middle[i];
+        for (k, moment) in share.load.moment.iter_mut().enumerate() {
+            *moment += newest[k] * on_m * (arm_m + 0.5 * on_m);
+        }
+        share.load.pull += newest[2] * on_m;
+        share.arm_m = arm_m + on_m;
+        if strand.ageing.modulus_pa.is_some() {
+            share.end = room.end[i];
+            spring(strand, section, time, &mut share);
+        }
+        room.shares.push(share);
+    }
+    let carry = match room.before {
+        Some((_, before_s)) => (time.to_s - time.from_s) / (time.to_s - time.from_s + before_s),
+        None => 0.0,
+    };
+    let before = room.before.map_or_else(Redundants::default, |(redundants, _)| redundants);
+    let end_of = |now: &Redundants| ending.unwrap_or_else(|| carried(now, &before, carry));
+    let from = end_of(&Redundants::default());
+    let reach = if ending.is_some() { 0.0 } else { 1.0 + carry };
+    let mut now = Redundants::default();
+    let rounds =
+        if strand.elements.iter().any(|e| e.yield_moment_n_m > 0.0 || e.yield_force_n > 0.0) {
+            YIELD_ROUNDS
+        } else {
+            1
+        };
+    for round in 0..rounds {
+        let sums = sum(sections, &room.shares, time.to_m, &from, reach);
+        now = by_place(hold, &sums, place, &far, middle_m, time.to_m);
+        if round + 1 < rounds && !yields(strand, sections, &mut room.shares, &now) {
+            break;
+        }
+    }
+    let end = end_of(&now);
+    finish(strand, sections, &room.shares, &now, &end);
+    let sums = now_sums(sections, time.to_m);
+    settle(hold, sums.turn.constant, sums.drop.constant, time.to_m, place);
+    if hold.far == super::End::Free {
+        place.far_along = place.near_along - sums.stretch;
+    } else if hold.near == super::End::Free {
+        place.near_along = place.far_along + sums.stretch;
+    }
+    room.before = Some((now, time.to_s - time.from_s));
+    now
+}
+
+/// Flow of a section over the step; `arm_m` is how much farther on the nozzle is at the middle of its flow.
+fn flow(strand: &Strand, section: &mut Section, time: &Interval, hold: Hold) -> Share {
+    let ageing = &strand.ageing;
+    let from_s = (time.from_s - section.birth_s).max(0.0);
+    let to_s = time.to_s - section.birth_s;
+    let mut share = Share { yields: 1.0, ..Share::default() };
+    if let Some(curvature) = ageing.free_curvature_per_m {
+        let (was, is) = (curvature(section.element, from_s), curvature(section.element, to_s));
+        for i in 0..2 {
+            section.set[i] += is[i] - was[i];
+        }
+    }
+    if from_s >= ageing.rigid_s {
+        return share;
+    }
+    let middle_s = 0.5 * (from_s + to_s);
+    let middle = (ageing.compliance_per_pa)(section.element, middle_s);
+    let end = (ageing.compliance_per_pa)(section.element, to_s);
+    let (early, late) = (middle - section.compliance, end - middle);
+    let compliance = (end - section.compliance).max(0.0);
+    section.compliance = end;
+    share.flow = compliance * section.per_inertia;
+    share.stretch = compliance * section.per_area;
+    if !determinate(hold) && compliance > 0.0 && time.to_s > time.from_s {
+        let quarter_s = 0.25 * (to_s - from_s);
+        let flows_s = section.birth_s + middle_s + quarter_s * (late - early) / compliance;
+        let speed_m_s = (time.to_m - time.from_m) / (time.to_s - time.from_s);
+        share.arm_m = speed_m_s * (flows_s - 0.5 * (time.from_s + time.to_s));
+    }
+    share
+}
+
+fn spring(strand: &Strand, section: &Section, time: &Interval, share: &mut Share) {
+    let Some(modulus) = strand.ageing.modulus_pa else { return };
+    let springs = |age_s: f64| {
+        let pa = modulus(section.element, age_s.max(0.0));
+        if pa > 0.0 && pa.is_finite() { 1.0 / pa } else { 0.0 }
+    };
+    let to_s = time.to_s - section.birth_s;
+    share.reach_m = time.to_m - section.at_m;
+    let softness = match strand.ageing.elastic {
+        Elastic::Total => springs(to_s),
+        Elastic::Rate => {
+            match section.last {
+                Some((moment, pull)) => (share.was, share.was_pull) = (moment, pull),
+                None => share.newborn = 1.0,
+            }
+            springs(to_s - 0.5 * to_s.min(time.to_s - time.from_s))
+        }
+    };
+    share.spring = softness * section.per_inertia;
+    share.spring_stretch = softness * section.per_area;
+}
+
+/// Redundants at the end of the step from those of two steps.
+fn carried(now: &Redundants, before: &Redundants, carry: f64) -> Redundants {
+    let on = |now: f64, before: f64| now + carry * (now - before);
+    Redundants {
+        moment: [0, 1].map(|i| on(now.moment[i], before.moment[i])),
+        shear: [0, 1].map(|i| on(now.shear[i], before.shear[i])),
+        pull: on(now.pull, before.pull),
+    }
+}
+
+/// Sums over the sections; `from` are the redundants at the end for none now, `reach` how they grow with those.
+fn sum(sections: &[Section], shares: &[Share], end_m: f64, from: &Redundants, reach: f64) -> Sums {
+    let mut sums = Sums::default();
+    for (section, share) in sections.iter().zip(shares) {
+        let (flow, spring) = (share.flow * share.yields, share.spring);
+        let by_moment = section.weight_m * (flow + spring * (reach - share.newborn));
+        let by_shear = section.weight_m * (flow * share.arm_m + spring * share.reach_m * reach);
+        let arm_m = end_m - section.at_m;
+        for i in 0..2 {
+            let sprung =
+                share.end.moment[i] + from.moment[i] + share.reach_m * from.shear[i] - share.was[i];
+            let constant =
+                section.weight_m * (section.set[i] + flow * share.load.moment[i] + spring * sprung);
+            sums.turn.constant[i] += constant;
+            sums.drop.constant[i] += constant * arm_m;
+        }
+        sums.turn.by_moment += by_moment;
+        sums.turn.by_shear += by_shear;
+        sums.drop.by_moment += by_moment * arm_m;
+        sums.drop.by_shear += by_shear * arm_m;
+        let stretch = share.stretch * share.yields;
+        let sprung = share.end.pull + from.pull - share.was_pull;
+        sums.stretch += section.weight_m
+            * (section.set_strain + stretch * share.load.pull + share.spring_stretch * sprung);
+        sums.stretch_by_pull +=
+            section.weight_m * (stretch + share.spring_stretch * (reach - share.newborn));
+    }
+    sums
+}
+
+/// How much of each section's flow its yield stress leaves: `1 − 1/u`, `u = |M|/M_y + |N|/N_y`, half way from
+/// what was taken. Returns whether it still changes.
+fn yields(strand: &Strand, sections: &[Section], shares: &mut [Share], now: &Redundants) -> bool {
+    let mut changes = false;
+    for (section, share) in sections.iter().zip(shares) {
+        let element = &strand.elements[section.element];
+        let moment =
+            [0, 1].map(|i| share.load.moment[i] + now.moment[i] + now.shear[i] * share.arm_m);
+        let mut used = 0.0;
+        if element.yield_moment_n_m > 0.0 {
+            used += moment[0].hypot(moment[1]) / element.yield_moment_n_m;
+        }
+        if element.yield_force_n > 0.0 {
+            used += (share.load.pull + now.pull).abs() / element.yield_force_n;
+        }
+        if element.yield_moment_n_m > 0.0 || element.yield_force_n > 0.0 {
+            let leaves = (1.0 - 1.0 / used).max(LEAST_FLOW);
+            changes |= (leaves - share.yields).abs() > 1e-4;
+            share.yields = 0.5 * (leaves + share.yields);
+        }
+    }
+    changes
+}
+
+fn finish(
+    strand: &Strand,
+    sections: &mut [Section],
+    shares: &[Share],
+    now: &Redundants,
+    end: &Redundants,
+) {
+    let rate = strand.ageing.elastic == Elastic::Rate;
+    for (section, share) in sections.iter_mut().zip(shares) {
+        let flow = share.flow * share.yields;
+        let mut last = ([0.0; 2], share.end.pull + end.pull);
+        for i in 0..2 {
+            let moment = share.load.moment[i] + now.moment[i] + now.shear[i] * share.arm_m;
+            section.set[i] += flow * moment;
+            last.0[i] = share.end.moment[i] + share.reach_m * end.shear[i] + end.moment[i];
+            let sprung = share.spring * (last.0[i] - share.was[i] - share.newborn * now.moment[i]);
+            section.curvature[i] = section.set[i] + sprung;
+        }
+        section.set_strain += share.stretch * share.yields * (share.load.pull + now.pull);
+        let sprung = last.1 - share.was_pull - share.newborn * now.pull;
+        section.strain = section.set_strain + share.spring_stretch * sprung;
+        section.last = Some(last);
+        if rate {
+            section.set = section.curvature;
+            section.set_strain = section.strain;
+        }
+    }
+}
+
+/// Sums over the sections as they are.
+fn now_sums(sections: &[Section], end_m: f64) -> Sums {
+    let mut sums = Sums::default();
+    for section in sections {
+        for i in 0..2 {
+            let turn = section.weight_m * section.curvature[i];
+            sums.turn.constant[i] += turn;
+            sums.drop.constant[i] += turn * (end_m - section.at_m);
+        }
+        sums.stretch += section.weight_m * section.strain;
+    }
+    sums
+}
