@@ -5,18 +5,27 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod clock;
 pub mod cure;
+pub mod cured;
 pub mod elastica;
 pub mod gel;
 pub mod heat;
 pub mod history;
+pub mod kamal;
+pub mod kinetics;
 pub mod light;
 pub mod material;
+pub mod oxygen;
+pub mod plastic_bending;
 pub mod sag;
 pub mod shrinkage;
 pub mod soft;
+pub mod solid;
 pub mod strand;
+pub mod tube;
 pub mod viscosity;
+pub mod yield_stress;
 
 pub use history::History;
 pub use light::LightRing;
@@ -29,8 +38,14 @@ mod reference;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_clock;
+#[cfg(test)]
 mod tests_heat;
+#[cfg(test)]
+mod tests_kinetics;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]
 mod tests_strand;
+#[cfg(test)]
+mod tests_yield;
