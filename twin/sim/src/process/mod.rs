@@ -7,11 +7,13 @@
 pub mod age_samples;
 pub mod air_side;
 pub mod bead;
+pub mod clock;
 pub mod coiling;
 pub mod contact;
 pub mod cooled;
 pub mod course;
 pub mod cure;
+pub mod cured;
 pub mod elastica;
 pub mod feed;
 pub mod gel;
@@ -19,8 +21,12 @@ pub mod healing;
 pub mod heat;
 pub mod history;
 pub mod jet;
+pub mod kamal;
+pub mod kinetics;
 pub mod light;
 pub mod material;
+pub mod oxygen;
+pub mod plastic_bending;
 pub mod radial;
 pub mod reheat;
 pub mod rod;
@@ -28,10 +34,13 @@ pub mod sag;
 pub mod section;
 pub mod shrinkage;
 pub mod soft;
+pub mod solid;
 pub mod strand;
 pub mod tait;
 pub mod threads;
+pub mod tube;
 pub mod viscosity;
+pub mod yield_stress;
 
 pub use course::{Course, Station, Told};
 pub use history::History;
@@ -51,8 +60,11 @@ mod tests;
 mod tests_bead;
 #[cfg(test)]
 mod tests_feed;
+mod tests_clock;
 #[cfg(test)]
 mod tests_heat;
+#[cfg(test)]
+mod tests_kinetics;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]
@@ -62,3 +74,4 @@ mod tests_strand;
 #[cfg(test)]
 mod tests_threads;
 mod tests_thermal_anchor;
+mod tests_yield;
