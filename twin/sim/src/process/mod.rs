@@ -59,8 +59,9 @@ mod tests;
 #[cfg(test)]
 mod tests_bead;
 #[cfg(test)]
-mod tests_feed;
 mod tests_clock;
+#[cfg(test)]
+mod tests_feed;
 #[cfg(test)]
 mod tests_heat;
 #[cfg(test)]
@@ -72,6 +73,8 @@ mod tests_section;
 #[cfg(test)]
 mod tests_strand;
 #[cfg(test)]
-mod tests_threads;
 mod tests_thermal_anchor;
+#[cfg(test)]
+mod tests_threads;
+#[cfg(test)]
 mod tests_yield;
