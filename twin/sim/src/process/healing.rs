@@ -77,6 +77,10 @@ pub struct Bond {
 }
 
 /// Bond of a thermoplastic from the temperature of the contact; see [`healing_degree`].
+///
+/// A node touched in free air (ABS 240 °C on a strut at 22 °C, interface 131 °C) comes out at 0.12 with the weld time of
+/// P400 and 0.29 by reptation, PLA at 0.34; the reference expects 0.4–0.6 and 0.6–0.8 without measurement. A wait or a
+/// strut still warm raises it (strut at 60 °C: 0.44). Nothing is tuned to close the gap.
 pub fn thermoplastic_bond(
     samples: &[(f64, f64)],
     glass_k: f64,
