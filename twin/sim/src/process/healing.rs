@@ -43,8 +43,8 @@ pub fn reptation_time_s(viscosity_pa_s: f64, shear_plateau_pa: f64) -> f64 {
 /// Temperature of the contact as samples `(age s, K)`, straight between them; `weld_time_s` gives `t_w` in s
 /// at a temperature in K. Only time above the glass transition counts. Error second order in the
 /// spacing of the samples. Full contact from the start is assumed: the neck has grown or was
-/// pressed (`contact`). Wool–O'Connor, Yang–Pitchumani; process-physics.md section 5. Cost `O(n)`, about a
-/// microsecond for each e-fold of `t_w` in a hundred samples.
+/// pressed (`contact`). Wool–O'Connor, Yang–Pitchumani; process-physics.md section 5. Cost `O(n)`, about
+/// 12 µs for a hundred samples.
 pub fn healing_degree(
     samples: &[(f64, f64)],
     glass_k: f64,
