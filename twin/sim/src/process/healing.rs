@@ -43,8 +43,8 @@ pub fn reptation_time_s(viscosity_pa_s: f64, shear_plateau_pa: f64) -> f64 {
 /// Temperature of the contact as samples `(age s, K)`, straight between them; `weld_time_s` gives `t_w` in s
 /// at a temperature in K. Only time above the glass transition counts. Error second order in the
 /// spacing of the samples. Full contact from the start is assumed: the neck has grown or was
-/// pressed (`contact`). Wool–O'Connor, Yang–Pitchumani; process-physics.md section 5. Cost `O(n)`, about a
-/// microsecond for each e-fold of `t_w` in a hundred samples.
+/// pressed (`contact`). Wool–O'Connor, Yang–Pitchumani; process-physics.md section 5. Cost `O(n)`, about
+/// 12 µs for a hundred samples.
 pub fn healing_degree(
     samples: &[(f64, f64)],
     glass_k: f64,
@@ -77,6 +77,10 @@ pub struct Bond {
 }
 
 /// Bond of a thermoplastic from the temperature of the contact; see [`healing_degree`].
+///
+/// A node touched in free air (ABS 240 °C on a strut at 22 °C, interface 131 °C) comes out at 0.12 with the weld time of
+/// P400 and 0.29 by reptation, PLA at 0.34; the reference expects 0.4–0.6 and 0.6–0.8 without measurement. A wait or a
+/// strut still warm raises it (strut at 60 °C: 0.44). Nothing is tuned to close the gap.
 pub fn thermoplastic_bond(
     samples: &[(f64, f64)],
     glass_k: f64,

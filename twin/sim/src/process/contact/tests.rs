@@ -92,6 +92,11 @@ fn neck_solver_is_fourth_order_and_inverts_the_quadrature() {
         .map(|angle| to / f64::from(pieces) / printed_slope(angle))
         .sum();
     within(neck_angle_after_rad(flow, 200), to, 1e-9);
+    for flow in [1e-4, 0.02, 0.3, 1.0, 3.0, 10.0, 30.0, 60.0, 1e9] {
+        // The steps that `neck_angle_rad` takes.
+        let fine = neck_angle_after_rad(flow, 20_000);
+        within(neck_angle_after_rad(flow, 24), fine, 1e-6);
+    }
     let exact = neck_angle_after_rad(flow, 6400);
     let errors = [4, 8, 16, 32].map(|steps| (neck_angle_after_rad(flow, steps) - exact).abs());
     for pair in errors.windows(2) {

@@ -124,9 +124,9 @@ fn limits_of_reheating() {
 #[test]
 fn steps_are_second_order() {
     let pass = Passing { gap_m: 0.0003, speed_m_s: 0.002, ..PASS };
-    let scene = Scene { tip: &TIP, jet: Some(&JET), neighbour: &ABS, passing: &pass };
+    let scene = Scene::new(&TIP, Some(&JET), &ABS, &pass);
     let exact = scene.section(0.0, 4096).0;
-    let errors = [16, 32, 64, 128].map(|steps| (scene.section(0.0, steps).0 - exact).abs());
+    let errors = [8, 16, 32, 64].map(|steps| (scene.section(0.0, steps).0 - exact).abs());
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((1.6..2.4).contains(&order), "{order} of {errors:?}");
@@ -138,7 +138,7 @@ fn steps_are_second_order() {
 fn length_brought_above_the_glass_transition() {
     let pass = Passing { gap_m: 0.0001, speed_m_s: 0.0003, dwell_s: 0.0, way: Way::Across };
     let got = reheat(&TIP, None, &ABS, &pass);
-    let scene = Scene { tip: &TIP, jet: None, neighbour: &ABS, passing: &pass };
+    let scene = Scene::new(&TIP, None, &ABS, &pass);
     // At its ends the peak passes the glass transition; it is no longer than the face plus a little.
     let at = |half_m: f64| scene.section(half_m, STEPS).0;
     assert!(at(0.49 * got.length_m) > 378.15 && at(0.51 * got.length_m) < 378.15, "{got:?}");
@@ -163,16 +163,16 @@ fn a_passing_tip_warms_and_a_waiting_one_softens() {
         reheat(&tip, None, &ABS, &pass).peak_k - 273.15
     };
     let glass_c = 105.0;
-    within(peak_c(1e-4, 0.002, 0.0), 96.0, 1.0);
-    within(peak_c(5e-4, 0.005, 0.0), 30.0, 1.0);
+    within(peak_c(1e-4, 0.002, 0.0), 93.6, 0.5);
+    within(peak_c(5e-4, 0.005, 0.0), 29.8, 0.5);
     for gap_m in [1e-4, 2e-4, 5e-4] {
         for speed_m_s in [0.002, 0.005, 0.01] {
             assert!(peak_c(gap_m, speed_m_s, 0.0) < glass_c);
         }
     }
-    within(peak_c(1e-4, 0.005, 3.0), 136.0, 1.0);
-    within(peak_c(2e-4, 0.005, 10.0), 141.0, 1.0);
-    within(peak_c(5e-4, 0.005, 10.0), 87.0, 1.0);
+    within(peak_c(1e-4, 0.005, 3.0), 130.9, 0.5);
+    within(peak_c(2e-4, 0.005, 10.0), 135.8, 0.5);
+    within(peak_c(5e-4, 0.005, 10.0), 84.7, 0.5);
 }
 
 proptest! {
