@@ -2,13 +2,15 @@
 
 use super::course::{course, gravity_across};
 use super::judging;
-use crate::cell::{Job, Join, On};
+use crate::cell::{Job, Join, On, Tool};
 use crate::deposit::{self, Contact, Deposit, Printed};
 use crate::finding::{Findings, Phase};
 use crate::growth::StrandLaw;
+use crate::interval::Interval;
 use crate::motion::{Leg, Motion};
 use crate::pose::{Point, Vector};
-use crate::process::{self, Air, Ends, StrandInput, StrandOutcome};
+use crate::process::jet::{self, JetProfile};
+use crate::process::{self, Air, Course, Ends, Fidelity, StrandInput, StrandOutcome};
 use crate::toolpath::Path;
 
 /// What became of one strand.
@@ -140,6 +142,7 @@ fn make_one(
     let (across_m_s2, down) = gravity_across(&course);
     let (speed_m_s, flow_m3_s) = mean_speed_and_flow(path);
     let input = StrandInput {
+        fidelity: Fidelity::Full,
         length_m: path.length_m,
         span_m,
         speed_m_s,
@@ -153,12 +156,38 @@ fn make_one(
             temperature_k: job.air.temperature_k,
             room_m_s: job.air.speed_m_s,
             jet: tool.air_jet,
+            profile: jets(tool, &course),
         },
         light: tool.light_ring,
     };
     let outcome = process::simulate(&input, &job.material);
     let touches = contacts.len();
     StrandResult { strand: printed.strand, input, outcome, down, touches, start_held }
+}
+
+/// Length of strand behind the nozzle along which jets told one by one are looked for, m.
+const JET_REACH_M: f64 = 0.08;
+
+/// Air nozzles told one by one: their air across the strand as it leaves the nozzle half way along.
+fn jets(tool: &Tool, course: &Course) -> Option<(JetProfile, Interval)> {
+    let first = tool.air_nozzles.first()?;
+    let nozzles: Vec<jet::AirNozzle> = tool
+        .air_nozzles
+        .iter()
+        .map(|nozzle| jet::AirNozzle {
+            at: nozzle.at,
+            along: nozzle.along,
+            bore_m: nozzle.bore_m,
+            exit_speed_m_s: nozzle.exit_m_s.nominal,
+        })
+        .collect();
+    let middle = &course.stations[course.stations.len() / 2];
+    let leaving = middle.part_from_tool.inverse_transform_vector(&-middle.tangent);
+    let profile = JetProfile::new(&nozzles, &Point::origin(), &leaving, JET_REACH_M, 161);
+    let exit = first.exit_m_s;
+    let share =
+        if exit.nominal > 0.0 { exit.map(|v| v / exit.nominal) } else { Interval::exact(1.0) };
+    Some((profile, share))
 }
 
 /// Mean asked speed over the length, and the flow told, of what is extruded.

@@ -2,16 +2,11 @@
 
 use crate::interval::Interval;
 
-use super::bead::drawn_diameter_m;
 use super::cure::{gel_time_s, modulus_at_dose_pa};
-use super::heat::{
-    Cooling, cooling_rate_per_s, effective_h_w_m2k, modulus_through_glass_pa, total_h_w_m2k,
-};
-use super::material::{Material, Photopolymer, Setting, Thermoplastic};
+use super::heat::modulus_through_glass_pa;
+use super::material::{Material, Photopolymer, Setting};
 use super::strand::StrandInput;
-
-/// Error of the heat transfer correlations on thin strands: case NUSSELT-THIN.
-const CORRELATION_SPREAD: f64 = 0.2;
+use super::thermal::{Heat, heat};
 
 /// Which end of the uncertain inputs: the middle, what makes a strand set fast and sag little, or the
 /// opposite.
@@ -50,46 +45,6 @@ impl Corner {
     }
 }
 
-/// Temperature of the strand against age at a corner.
-///
-/// Corners: speed of the jet, specific heat, and the correlations' own ±20 %. Heat transfer is taken
-/// at the surface temperature midway between nozzle and glass transition; nozzle temperature, emissivity
-/// and conductivity at their nominal values.
-pub fn cooling(
-    input: &StrandInput,
-    material: &Material,
-    plastic: &Thermoplastic,
-    corner: Corner,
-) -> Cooling {
-    let diameter_m = drawn_diameter_m(input.flow_m3_s, input.speed_m_s);
-    let air_k = input.air.temperature_k;
-    let surface_k = 0.5 * (plastic.extrusion_k.nominal + plastic.glass_k.nominal);
-    let spread =
-        corner.helpful(Interval::new(1.0, 1.0 - CORRELATION_SPREAD, 1.0 + CORRELATION_SPREAD));
-    let rate_per_s = |air_m_s: f64| {
-        let emissivity = material.emissivity.nominal;
-        let h = spread * total_h_w_m2k(diameter_m, surface_k, air_k, air_m_s, emissivity);
-        let effective = effective_h_w_m2k(h, diameter_m, material.k_w_mk.nominal);
-        let cp = corner.harmful(material.cp_j_kgk);
-        cooling_rate_per_s(effective, plastic.melt_density_kg_m3.nominal, cp, diameter_m)
-    };
-    let room_rate_per_s = rate_per_s(input.air.room_m_s);
-    let (jet_rate_per_s, jet_until_s) = match input.air.jet {
-        Some(jet) => {
-            let jet_m_s = corner.helpful(jet.speed_m_s).max(input.air.room_m_s);
-            (rate_per_s(jet_m_s), (jet.reach_m / input.speed_m_s).max(0.0))
-        }
-        None => (room_rate_per_s, 0.0),
-    };
-    Cooling {
-        start_k: plastic.extrusion_k.nominal,
-        air_k,
-        jet_rate_per_s,
-        jet_until_s,
-        room_rate_per_s,
-    }
-}
-
 /// Age at which light sets a strand at a corner, s: shadow, then `Ec / I`; infinite without light enough.
 ///
 /// Corners: lamp intensity and critical exposure. A strand whose whole passage gives less than `Ec` never sets.
@@ -113,7 +68,7 @@ pub struct History {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Law {
-    Heat { cooling: Cooling, glassy_pa: f64, plateau_pa: f64, glass_k: f64 },
+    Heat { heat: Heat, glassy_pa: f64, plateau_pa: f64, glass_k: f64 },
     Light { shadow_s: f64, lit_s: f64, irradiance: f64, critical: f64, gel_pa: f64, set_pa: f64 },
     Clock { set_s: f64, set_pa: f64 },
 }
@@ -124,7 +79,7 @@ impl History {
         let set_pa = material.youngs_modulus_pa.nominal;
         let law = match &material.setting {
             Setting::Thermoplastic(plastic) => Law::Heat {
-                cooling: cooling(input, material, plastic, Corner::Nominal),
+                heat: heat(input, material, plastic, Corner::Nominal),
                 glassy_pa: set_pa,
                 plateau_pa: plastic.plateau_modulus_pa.nominal,
                 glass_k: plastic.glass_k.nominal,
@@ -149,7 +104,7 @@ impl History {
     /// reaction is left out).
     pub fn temperature_k(&self, age_s: f64) -> f64 {
         match &self.law {
-            Law::Heat { cooling, .. } => cooling.temperature_k(age_s),
+            Law::Heat { heat, .. } => heat.temperature_k(age_s),
             Law::Light { .. } | Law::Clock { .. } => self.air_k,
         }
     }
@@ -160,12 +115,9 @@ impl History {
     /// dose from the gel point on, of the surface. Two-part: all at the set time.
     pub fn modulus_pa(&self, age_s: f64) -> f64 {
         match self.law {
-            Law::Heat { cooling, glassy_pa, plateau_pa, glass_k } => modulus_through_glass_pa(
-                glassy_pa,
-                plateau_pa,
-                cooling.temperature_k(age_s),
-                glass_k,
-            ),
+            Law::Heat { ref heat, glassy_pa, plateau_pa, glass_k } => {
+                modulus_through_glass_pa(glassy_pa, plateau_pa, heat.temperature_k(age_s), glass_k)
+            }
             Law::Light { shadow_s, lit_s, irradiance, critical, gel_pa, set_pa } => {
                 let dose = irradiance * (age_s - shadow_s).max(0.0).min(lit_s);
                 modulus_at_dose_pa(gel_pa, set_pa, dose, critical, irradiance * lit_s)

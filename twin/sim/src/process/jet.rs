@@ -109,6 +109,11 @@ impl JetProfile {
         Self { step_m, speeds_m_s: (0..points).map(speed).collect() }
     }
 
+    /// Length of strand that the profile covers, m.
+    pub fn reach_m(&self) -> f64 {
+        self.step_m * (self.speeds_m_s.len() - 1) as f64
+    }
+
     /// Speed across the strand at a distance behind the orifice, m/s.
     pub fn at_distance_m_s(&self, distance_m: f64) -> f64 {
         let place = distance_m / self.step_m;

@@ -37,6 +37,7 @@ pub mod soft;
 pub mod solid;
 pub mod strand;
 pub mod tait;
+pub mod thermal;
 pub mod threads;
 pub mod tube;
 pub mod viscosity;
@@ -49,7 +50,7 @@ pub use material::{
     GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw, Thermoplastic,
     TwoPart, WeldLaw,
 };
-pub use strand::{Air, Ends, Jet, StrandInput, StrandOutcome, simulate};
+pub use strand::{Air, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate};
 pub use viscosity::CrossWlf;
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use super::bead::drawn_diameter_m;
 use super::gel::{cantilever_length_m, clamped_span_m, flowing_share};
-use super::heat::Cooling;
-use super::history::{Corner, cooling, light_set_s};
+use super::history::{Corner, light_set_s};
 use super::material::{Material, Setting, Thermoplastic};
 use super::sag::{Fluidity, LINEAR_LIMIT, SoftBeam, stretched_sag_m};
-use super::strand::{Ends, StrandInput};
+use super::strand::{Ends, Heats, StrandInput};
+use super::thermal::Heat;
 use crate::interval::Interval;
 
 /// A strand that never sets is given this long to sag, s.
@@ -32,17 +32,17 @@ pub struct NozzleSag {
 /// takes the greater of this and its own drop once the nozzle has left; the drop has no tension to
 /// stretch against and is bounded by the span. Corners: [`Corner`] on cooling, viscosity, density; lamp,
 /// critical exposure, yield stress; set time. Resting strands do not sag.
-pub fn nozzle_sag(input: &StrandInput, material: &Material) -> NozzleSag {
+pub fn nozzle_sag(input: &StrandInput, material: &Material, heats: &Heats) -> NozzleSag {
     if input.ends == Ends::Resting {
         return NozzleSag { offset_m: Interval::exact(0.0), linear: true };
     }
-    let at = |corner| offset(input, material, corner);
+    let at = |corner| offset(input, material, heats, corner);
     let (nominal, low, high) = (at(Corner::Nominal), at(Corner::Fast), at(Corner::Slow));
     NozzleSag { offset_m: Interval::new(nominal.0, low.0, high.0), linear: nominal.1 }
 }
 
 /// Offset at a corner, m, and whether linear.
-fn offset(input: &StrandInput, material: &Material, corner: Corner) -> (f64, bool) {
+fn offset(input: &StrandInput, material: &Material, heats: &Heats, corner: Corner) -> (f64, bool) {
     let beam = SoftBeam {
         diameter_m: drawn_diameter_m(input.flow_m3_s, input.speed_m_s),
         density_kg_m3: corner.harmful(material.fresh_density_kg_m3()),
@@ -52,9 +52,9 @@ fn offset(input: &StrandInput, material: &Material, corner: Corner) -> (f64, boo
     };
     let (held_m, tip_m) = match &material.setting {
         Setting::Thermoplastic(plastic) => {
-            let history = cooling(input, material, plastic, corner);
+            let Some(heat) = heats.at(corner) else { return (0.0, true) };
             let fluidity =
-                melt_fluidity(plastic, &history).thicker(corner.helpful(plastic.viscosity.factor));
+                melt_fluidity(plastic, heat).thicker(corner.helpful(plastic.viscosity.factor));
             (held(&beam, fluidity, corner), beam.tip_drop_m(fluidity))
         }
         Setting::Photopolymer(resin) => {
@@ -102,19 +102,18 @@ fn liquid(beam: &SoftBeam, viscosity_pa_s: f64, until_s: f64, corner: Corner) ->
 }
 
 /// Fluidity of a cooling melt, viscosity factor one.
-pub fn melt_fluidity(plastic: &Thermoplastic, cooling: &Cooling) -> Fluidity {
-    melt_fluidity_with(plastic, cooling, PANELS)
+pub fn melt_fluidity(plastic: &Thermoplastic, heat: &Heat) -> Fluidity {
+    melt_fluidity_with(plastic, heat, PANELS)
 }
 
 /// The same with a number of quadrature panels to each of its pieces, in the jet and after.
-pub fn melt_fluidity_with(plastic: &Thermoplastic, cooling: &Cooling, panels: u32) -> Fluidity {
+pub fn melt_fluidity_with(plastic: &Thermoplastic, heat: &Heat, panels: u32) -> Fluidity {
     let viscosity = plastic.viscosity;
-    let rigid_pa_s = viscosity.zero_shear_pa_s(cooling.start_k) / RIGID;
-    let end_s = cooling.time_to_s(viscosity.temperature_k(rigid_pa_s)).min(PATIENCE_S);
-    let fluidity =
-        |age_s: f64| 1.0 / (3.0 * viscosity.zero_shear_pa_s(cooling.temperature_k(age_s)));
-    if cooling.jet_until_s > 0.0 && cooling.jet_until_s < end_s {
-        Fluidity::integrate(fluidity, &[0.0, cooling.jet_until_s, end_s], panels)
+    let rigid_pa_s = viscosity.zero_shear_pa_s(heat.start_k()) / RIGID;
+    let end_s = heat.time_to_s(viscosity.temperature_k(rigid_pa_s)).min(PATIENCE_S);
+    let fluidity = |age_s: f64| 1.0 / (3.0 * viscosity.zero_shear_pa_s(heat.temperature_k(age_s)));
+    if heat.jet_until_s() > 0.0 && heat.jet_until_s() < end_s {
+        Fluidity::integrate(fluidity, &[0.0, heat.jet_until_s(), end_s], panels)
     } else {
         Fluidity::integrate(fluidity, &[0.0, end_s], panels)
     }

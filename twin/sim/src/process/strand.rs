@@ -7,16 +7,29 @@ use super::cure::{
     cure_depth_m, set_distance_m, shell_area_fraction, shell_stiffness_fraction, uncured_core_m,
 };
 use super::heat::modulus_through_glass_pa;
-use super::history::{Corner, cooling, light_set_s};
+use super::history::{Corner, light_set_s};
+use super::jet::JetProfile;
 use super::light::LightRing;
 use super::material::{Material, Photopolymer, Setting};
 use super::sag::{SetBeam, slack_sag_m};
-use super::shrinkage::{CureRun, cooling_end_miss_m, free_strain};
+use super::shrinkage::{self, CureRun, cooling_end_miss_m, free_strain};
 use super::soft::nozzle_sag;
+use super::thermal::{Heat, heat};
+
+/// How much is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fidelity {
+    /// Closed forms alone; microseconds.
+    ClosedForms,
+    /// Heat through the radius; what a [`super::Course`] adds is in [`super::along`].
+    Full,
+}
 
 /// A strand as it is printed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct StrandInput {
+    /// How much is computed.
+    pub fidelity: Fidelity,
     /// Length of the whole strand, m.
     pub length_m: f64,
     /// Longest unsupported span: between joined ends, or from the last hold to the free end, m.
@@ -52,8 +65,15 @@ pub enum Ends {
     Resting,
 }
 
+impl StrandInput {
+    /// Diameter as drawn, m.
+    pub fn hot_diameter_m(&self) -> f64 {
+        drawn_diameter_m(self.flow_m3_s, self.speed_m_s)
+    }
+}
+
 /// The air around a strand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Air {
     /// Its temperature, K.
     pub temperature_k: f64,
@@ -61,6 +81,39 @@ pub struct Air {
     pub room_m_s: f64,
     /// The jet that travels with the nozzle.
     pub jet: Option<Jet>,
+    /// Jets told one by one, at their nominal speed, with their speeds' range over that.
+    pub profile: Option<(JetProfile, Interval)>,
+}
+
+impl Air {
+    /// Length behind the nozzle that jets reach, m; zero where there are none.
+    pub fn jet_reach_m(&self) -> f64 {
+        match (&self.jet, &self.profile) {
+            (Some(jet), _) => jet.reach_m,
+            (None, Some((profile, _))) => profile.reach_m(),
+            (None, None) => 0.0,
+        }
+    }
+
+    /// Speed of the air across the strand at a distance behind the nozzle, m/s.
+    pub fn speed_m_s(&self, behind_m: f64, corner: Corner) -> f64 {
+        let jet_m_s = match (&self.jet, &self.profile) {
+            (Some(jet), _) if behind_m <= jet.reach_m => corner.helpful(jet.speed_m_s),
+            (None, Some((profile, share))) => {
+                profile.at_distance_m_s(behind_m) * corner.helpful(*share)
+            }
+            _ => 0.0,
+        };
+        jet_m_s.max(self.room_m_s)
+    }
+
+    /// Mean speed of the jets over their reach, m/s.
+    pub fn mean_jet_m_s(&self, corner: Corner) -> f64 {
+        const PLACES: u32 = 16;
+        let step_m = self.jet_reach_m() / f64::from(PLACES);
+        let speed = |k: u32| self.speed_m_s(step_m * (f64::from(k) + 0.5), corner);
+        (0..PLACES).map(speed).sum::<f64>() / f64::from(PLACES)
+    }
 }
 
 /// A jet of air that travels with the nozzle.
@@ -134,8 +187,9 @@ pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
     let ratio =
         |swell| draw_ratio(input.flow_m3_s, input.speed_m_s, input.nozzle_diameter_m, swell);
     let draw_ratio = input.swell.map(ratio);
-    let set_time_s = set_time_s(input, material);
-    let sag = nozzle_sag(input, material);
+    let heats = Heats::new(input, material);
+    let set_time_s = set_time_s(input, material, &heats);
+    let sag = nozzle_sag(input, material, &heats);
     let free_strain = free_strain(material, input.air.temperature_k);
     let shell = shell(input, material, bead_diameter_m.nominal / 2.0);
     let youngs_modulus_pa = set_modulus_pa(input, material);
@@ -154,7 +208,7 @@ pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
         sag_linear: sag.linear,
         sag_slack_m: slack_m(input, draw_ratio, free_strain),
         sag_set_m: sag_set_m(input, material, bead_diameter_m.nominal, stiffness),
-        end_miss_m: end_miss_m(input, material),
+        end_miss_m: end_miss_m(input, material, &heats),
         uncured_core_m: shell.core_m,
         area_fraction: shell.area,
         stiffness_fraction: shell.stiffness,
@@ -164,10 +218,33 @@ pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
     }
 }
 
-fn set_time_s(input: &StrandInput, material: &Material) -> Interval {
+/// Temperature against age at all corners, each made once; none but of a thermoplastic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heats(Option<[Heat; 3]>);
+
+impl Heats {
+    /// Of a strand.
+    pub fn new(input: &StrandInput, material: &Material) -> Self {
+        let Setting::Thermoplastic(plastic) = &material.setting else { return Self(None) };
+        let corners = [Corner::Nominal, Corner::Fast, Corner::Slow];
+        Self(Some(corners.map(|corner| heat(input, material, plastic, corner))))
+    }
+
+    /// At a corner; `None`: no thermoplastic.
+    pub fn at(&self, corner: Corner) -> Option<&Heat> {
+        self.0.as_ref().map(|heats| match corner {
+            Corner::Nominal => &heats[0],
+            Corner::Fast => &heats[1],
+            Corner::Slow => &heats[2],
+        })
+    }
+}
+
+fn set_time_s(input: &StrandInput, material: &Material, heats: &Heats) -> Interval {
     Corner::interval(|corner| match &material.setting {
-        Setting::Thermoplastic(plastic) => cooling(input, material, plastic, corner)
-            .time_to_s(corner.helpful(plastic.flow_arrest_k)),
+        Setting::Thermoplastic(plastic) => heats
+            .at(corner)
+            .map_or(f64::INFINITY, |heat| heat.time_to_s(corner.helpful(plastic.flow_arrest_k))),
         Setting::Photopolymer(resin) => light_set_s(input, resin, corner),
         Setting::TwoPart(mix) => corner.harmful(mix.set_time_s),
     })
@@ -250,16 +327,33 @@ fn sag_set_m(
 
 /// Pull-back of the end. Free: the law of its setting. Held or resting: nominally none, since what it is
 /// joined to holds it and the strain becomes force (see `free_strain`); the high end is that of a free one.
-fn end_miss_m(input: &StrandInput, material: &Material) -> Interval {
+fn end_miss_m(input: &StrandInput, material: &Material, heats: &Heats) -> Interval {
     let free = Corner::interval(|corner| match &material.setting {
-        Setting::Thermoplastic(plastic) => cooling_end_miss_m(
-            corner.harmful(material.cte_per_k),
-            corner.harmful(plastic.glass_k),
-            &cooling(input, material, plastic, corner),
-            input.length_m,
-            input.speed_m_s,
-            input.dwell_s,
-        ),
+        Setting::Thermoplastic(plastic) => {
+            let expansion = corner.harmful(material.cte_per_k);
+            let glass_k = corner.harmful(plastic.glass_k);
+            let (length_m, dwell_s) = (input.length_m, input.dwell_s);
+            match heats.at(corner) {
+                Some(Heat::Lumped(cooling)) => cooling_end_miss_m(
+                    expansion,
+                    glass_k,
+                    cooling,
+                    length_m,
+                    input.speed_m_s,
+                    dwell_s,
+                ),
+                Some(heat) => {
+                    let printed_s = length_m / input.speed_m_s;
+                    let air_k = input.air.temperature_k;
+                    shrinkage::end_miss_m(
+                        &[(0.0, 0.0), (length_m, printed_s)],
+                        printed_s + dwell_s,
+                        |age_s| expansion * (heat.temperature_k(age_s).min(glass_k) - air_k),
+                    )
+                }
+                None => 0.0,
+            }
+        }
         Setting::Photopolymer(resin) => light_run(input, resin, corner).end_miss_m(
             input.length_m,
             input.speed_m_s,

@@ -106,6 +106,7 @@ fn two_part() -> Material {
 /// A 1.27 mm strand, 60 mm, 5 mm/s, in a jet of 5 m/s over 30 mm.
 fn strand() -> StrandInput {
     StrandInput {
+        fidelity: Fidelity::ClosedForms,
         length_m: 0.06,
         span_m: 0.06,
         speed_m_s: 0.005,
@@ -119,6 +120,7 @@ fn strand() -> StrandInput {
             temperature_k: 295.15,
             room_m_s: 0.1,
             jet: Some(Jet { speed_m_s: range(10.0, 5.0, 20.0), reach_m: 0.03 }),
+            profile: None,
         },
         light: None,
     }
@@ -182,13 +184,13 @@ fn sag_table_of_the_reference() {
         let effective = heat::effective_h_w_m2k(h, diameter_m, material.k_w_mk.nominal);
         let cp = material.cp_j_kgk.nominal;
         let rate = heat::cooling_rate_per_s(effective, density_kg_m3, cp, diameter_m);
-        let cooling = heat::Cooling {
+        let cooling = thermal::Heat::Lumped(heat::Cooling {
             start_k: plastic.extrusion_k.nominal,
             air_k: 295.15,
             jet_rate_per_s: rate,
             jet_until_s: 0.0,
             room_rate_per_s: rate,
-        };
+        });
         let beam = SoftBeam {
             diameter_m,
             density_kg_m3,
@@ -219,7 +221,7 @@ fn outcomes_are_ordered_intervals() {
             } else {
                 strand()
             };
-            let out = simulate(&StrandInput { ends, ..base }, &material);
+            let out = simulate(&StrandInput { ends, ..base.clone() }, &material);
             for interval in [
                 out.bead_diameter_m,
                 out.draw_ratio,
@@ -309,7 +311,7 @@ fn history_and_corners() {
     let clock = History::new(&strand(), &two_part());
     assert!(clock.modulus_pa(0.2) == 0.0 && clock.modulus_pa(0.4) == 1.6e9);
     let Setting::Thermoplastic(plastic) = &abs().setting.clone() else { unreachable!() };
-    let rate = |corner| super::history::cooling(&strand(), &abs(), plastic, corner).jet_rate_per_s;
+    let rate = |corner| super::thermal::cooling(&strand(), &abs(), plastic, corner).jet_rate_per_s;
     assert!(
         rate(Corner::Fast) > rate(Corner::Nominal) && rate(Corner::Nominal) > rate(Corner::Slow)
     );
@@ -322,13 +324,13 @@ fn no_input_panics() {
         for value in odd {
             for ends in [Ends::BothHeld, Ends::StartHeld, Ends::Resting] {
                 let base = StrandInput { ends, ..gel_strand() };
-                let air = Air { temperature_k: value, ..base.air };
+                let air = Air { temperature_k: value, ..base.air.clone() };
                 for input in [
-                    StrandInput { speed_m_s: value, ..base },
-                    StrandInput { flow_m3_s: value, ..base },
-                    StrandInput { length_m: value, span_m: value, ..base },
-                    StrandInput { gravity_across_m_s2: value, dwell_s: value, ..base },
-                    StrandInput { air, ..base },
+                    StrandInput { speed_m_s: value, ..base.clone() },
+                    StrandInput { flow_m3_s: value, ..base.clone() },
+                    StrandInput { length_m: value, span_m: value, ..base.clone() },
+                    StrandInput { gravity_across_m_s2: value, dwell_s: value, ..base.clone() },
+                    StrandInput { air, ..base.clone() },
                 ] {
                     let _ = simulate(&input, &material);
                     let history = History::new(&input, &material);
