@@ -7,6 +7,7 @@
 pub mod bead;
 pub mod clock;
 pub mod cure;
+mod cure_piece;
 pub mod cured;
 pub mod elastica;
 pub mod gel;
@@ -40,11 +41,15 @@ mod tests;
 #[cfg(test)]
 mod tests_clock;
 #[cfg(test)]
+mod tests_cured;
+#[cfg(test)]
 mod tests_heat;
 #[cfg(test)]
 mod tests_kinetics;
 #[cfg(test)]
 mod tests_sag;
+#[cfg(test)]
+mod tests_solid;
 #[cfg(test)]
 mod tests_strand;
 #[cfg(test)]
