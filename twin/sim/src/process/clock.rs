@@ -160,7 +160,7 @@ impl Mixed<'_> {
     /// Fluidity of the strand as the sag laws take it, `1/(3η)` up to the set time.
     ///
     /// Zero moments where it leaves the mixer set; moments of infinite age where it never sets are cut at
-    /// `patience_s`. Cost: a hundred degrees, 10 µs.
+    /// `patience_s`. Cost: a hundred degrees of cure, 40 µs.
     pub fn fluidity(&self, thickening: &Thickening, patience_s: f64) -> Fluidity {
         let set_s = self.clock.set_after_nozzle_s(self.residence_s, self.mixer_k, self.strand_k);
         let fluid = |age_s: f64| 1.0 / (3.0 * thickening.viscosity_pa_s(self.degree(age_s)));

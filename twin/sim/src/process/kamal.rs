@@ -78,7 +78,7 @@ impl Kamal {
         Self { k1_per_s: self.k1_per_s * factor, k2_per_s: self.k2_per_s * factor, ..self }
     }
 
-    /// The solution from nothing on, as a table: 40 µs, once to a material and corner.
+    /// The solution from nothing on, as a table: 0.2 ms, once to a material and corner.
     pub fn curve(&self) -> CureCurve {
         self.curve_with(CELLS)
     }
@@ -161,7 +161,7 @@ struct Node {
 
 impl CureCurve {
     /// Degree of cure after a time, in 0..`α_max`; zero before it, for a law that cannot cure and for a time
-    /// that is no number. Grows with time to the rounding. 0.1 µs.
+    /// that is no number. Grows with time to the rounding. 0.2 µs.
     pub fn degree(&self, time_s: f64) -> f64 {
         let Some(last) = self.nodes.last() else { return 0.0 };
         if !(time_s > 0.0) {

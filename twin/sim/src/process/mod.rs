@@ -13,6 +13,7 @@ pub mod contact;
 pub mod cooled;
 pub mod course;
 pub mod cure;
+mod cure_piece;
 pub mod cured;
 pub mod elastica;
 pub mod feed;
@@ -62,6 +63,8 @@ mod tests_bead;
 #[cfg(test)]
 mod tests_clock;
 #[cfg(test)]
+mod tests_cured;
+#[cfg(test)]
 mod tests_feed;
 #[cfg(test)]
 mod tests_heat;
@@ -71,6 +74,8 @@ mod tests_kinetics;
 mod tests_sag;
 #[cfg(test)]
 mod tests_section;
+#[cfg(test)]
+mod tests_solid;
 #[cfg(test)]
 mod tests_strand;
 #[cfg(test)]

@@ -68,7 +68,7 @@ pub fn wall_stress_pa(fluid: &HerschelBulkley, flow_m3_s: f64, diameter_m: f64) 
     fluid.yield_pa + high
 }
 
-/// Pressure over a tube, Pa: `Δp = 4 L τ_w / D`; entry and exit losses left out. 5 µs.
+/// Pressure over a tube, Pa: `Δp = 4 L τ_w / D`; entry and exit losses left out. 10 µs.
 pub fn pressure_drop_pa(
     fluid: &HerschelBulkley,
     flow_m3_s: f64,
