@@ -7,6 +7,7 @@
 pub mod bead;
 pub mod coiling;
 pub mod cure;
+pub mod drive;
 pub mod elastica;
 pub mod feed;
 pub mod gel;
@@ -38,6 +39,8 @@ mod tests_bead;
 mod tests_feed;
 #[cfg(test)]
 mod tests_heat;
+#[cfg(test)]
+mod tests_rods;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]
