@@ -97,9 +97,10 @@ pub struct Bead {
 /// Bead of each segment between stations by mass balance: `D = √(4 V/(π Δs))`. O(n).
 ///
 /// `volumes_m3` holds what came out between neighbours ([`super::feed::Delivered::volumes_m3`]); one bead for
-/// each volume that has two stations. The draw ratio is the segment's mean, `π B² D_n² Δs/(4 V)`. A volume below
-/// zero (a retract) counts as none. Range: the material that leaves in a segment stays in it, so for segments
-/// longer than a few diameters; exact in volume. Source: process-physics.md section 4, case MASS-BALANCE.
+/// each volume that has two stations. The draw ratio is the segment's mean, `π B² D_n² Δs/(4 V)`. A volume
+/// below zero (a retract) counts as none. Range: the material that leaves in a segment stays in it, so for
+/// segments longer than a few diameters; exact in volume. Source: process-physics.md section 4, case
+/// MASS-BALANCE.
 pub fn beads(stations: &[Station], volumes_m3: &[f64], orifice: &Orifice) -> Vec<Bead> {
     stations
         .windows(2)
@@ -146,7 +147,8 @@ pub enum Draw {
     Thinned,
 }
 
-/// Judges a draw ratio; the reference's limits are 0.9 and 3 (process-physics.md section 8). Not a number is `Thinned`.
+/// Judges a draw ratio; the reference's limits are 0.9 and 3 (process-physics.md section 8). Not a number is
+/// `Thinned`.
 pub fn judge_draw(draw_ratio: f64, low: f64, high: f64) -> Draw {
     if draw_ratio < low {
         Draw::Overfed
@@ -178,8 +180,9 @@ pub struct Narrowing {
 
 /// Narrowing that explains a strength ratio: area ratio the same, diameter its root, overspeed its inverse.
 ///
-/// Strength along the strand goes with its area, and area with flow over speed. An upper bound of the overspeed:
-/// quality scatters too. Not a number below zero. Source: process-physics.md section 4, case SLPL-NARROWING.
+/// Strength along the strand goes with its area, and area with flow over speed. An upper bound of the
+/// overspeed: quality scatters too. Not a number below zero. Source: process-physics.md section 4, case
+/// SLPL-NARROWING.
 pub fn narrowing_from_strength(strength_ratio: f64) -> Narrowing {
     Narrowing {
         area_ratio: strength_ratio,

@@ -2,10 +2,11 @@
 //!
 //! Known: a viscous thread that leaves faster than its carrier moves folds from `v/v_free < 1` on (case
 //! SEWING-ONSET, ±15 %), and at onset meanders with the frequency at which it would coil on a carrier at rest
-//! (Brun, Ribe and others, Symmetry 2022 14(4):772, abstract). The excess length is mass balance. Not established: the
-//! coil's frequency or radius for a strand in free air, the draw ratio at which meander turns to coil, the
-//! amplitude (published models miss it, arXiv 2410.21503, abstract). So the frequency or the wavelength is an
-//! argument, and the amplitude here is the geometry of a curve of that wavelength that holds the excess.
+//! (Brun, Ribe and others, Symmetry 2022 14(4):772, abstract). The excess length is mass balance. Not
+//! established: the coil's frequency or radius for a strand in free air, the draw ratio at which meander
+//! turns to coil, the amplitude (published models miss it, arXiv 2410.21503, abstract). So the frequency or
+//! the wavelength is an argument, and the amplitude here is the geometry of a curve of that wavelength that
+//! holds the excess.
 
 use std::f64::consts::PI;
 
@@ -59,7 +60,8 @@ pub fn overfeed(draw_ratio: f64, mean_m: f64, length_m: f64) -> Overfeed {
     }
 }
 
-/// Wavelength of the meander at onset, m: `2 π v/Ω`, carrier speed `v` and frequency of steady coiling `Ω`, rad/s.
+/// Wavelength of the meander at onset, m: `2 π v/Ω`, carrier speed `v` and frequency of steady coiling `Ω`,
+/// rad/s.
 ///
 /// Holds at onset only; for a free strand `Ω` has to be measured.
 pub fn onset_wavelength_m(speed_m_s: f64, coiling_rad_s: f64) -> f64 {
@@ -68,10 +70,10 @@ pub fn onset_wavelength_m(speed_m_s: f64, coiling_rad_s: f64) -> f64 {
 
 /// Amplitude of a sine of a wavelength that holds an excess strain, m; middle to crest.
 ///
-/// Solves `(1/2π) ∫ √(1 + (k a)² cos² u) du = 1 + e`, `k = 2π/λ`, over a period: `a ≈ (λ/π) √e` where `e` is small.
-/// To 1e-12 relative, 64 steps of bisection at most, sums of 64 points (more excess than the reference's rules
-/// ever let pass makes a loop, not a sine: above `e` about 0.5 the number is a size, not a shape). That the curve is a sine
-/// is ours. Zero where there is no excess, infinite where it is infinite.
+/// Solves `(1/2π) ∫ √(1 + (k a)² cos² u) du = 1 + e`, `k = 2π/λ`, over a period: `a ≈ (λ/π) √e` where `e` is
+/// small. To 1e-8 up to `e = 2`, 64 steps of bisection at most, sums of 64 points (more excess than the
+/// reference's rules ever let pass makes a loop, not a sine: above `e` about 0.5 the number is a size, not a
+/// shape). That the curve is a sine is ours. Zero where there is no excess, infinite where it is infinite.
 pub fn sine_amplitude_m(strain: f64, wavelength_m: f64) -> f64 {
     if !(strain > 0.0) {
         return 0.0;
@@ -105,8 +107,8 @@ fn sine_excess(slope: f64) -> f64 {
 
 /// The farthest any curve can lie from its path that crosses it twice per wavelength and holds the excess, m.
 ///
-/// `(λ/4) √((1 + e)² − 1)`: the thread between two crossings is an ellipse's string at full stretch. No shape is
-/// assumed; a bound, not an estimate.
+/// `(λ/4) √((1 + e)² − 1)`: the thread between two crossings is an ellipse's string at full stretch. No shape
+/// is assumed; a bound, not an estimate.
 pub fn farthest_m(strain: f64, wavelength_m: f64) -> f64 {
     let strain = strain.max(0.0);
     0.25 * wavelength_m * (strain * (2.0 + strain)).sqrt()

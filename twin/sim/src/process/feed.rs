@@ -5,6 +5,8 @@
 
 use std::f64::consts::PI;
 
+use super::drive::Drive;
+
 /// What the extruder is told: from each time on, a flow. Before the first step it is told nothing.
 ///
 /// Times in s on any clock (below zero where a strand starts at zero and is primed before it), flow in
@@ -22,53 +24,6 @@ impl Told {
         steps.sort_by(|one, other| one.0.total_cmp(&other.0));
         Self { steps }
     }
-}
-
-/// What flows a drive can give.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Drive {
-    /// Any flow.
-    Any,
-    /// One of these flows, m³/s: the nearest to what is told (Kirkman's relay bits, at most eight levels with
-    /// three); the first of two as near. Nothing where the list is empty.
-    Levels(Vec<f64>),
-    /// This flow, m³/s, whenever more than nothing is told; else nothing (Tam and Mueller's stepper).
-    OnOff(f64),
-}
-
-impl Drive {
-    /// The flow the drive gives for a flow told, m³/s.
-    pub fn given_m3_s(&self, told_m3_s: f64) -> f64 {
-        match self {
-            Self::Any => told_m3_s,
-            Self::Levels(levels) => levels
-                .iter()
-                .copied()
-                .min_by(|one, other| (one - told_m3_s).abs().total_cmp(&(other - told_m3_s).abs()))
-                .unwrap_or(0.0),
-            Self::OnOff(rate_m3_s) => {
-                if told_m3_s > 0.0 {
-                    *rate_m3_s
-                } else {
-                    0.0
-                }
-            }
-        }
-    }
-
-    /// Relative error of the flow, `dQ/Q`: given over told less one. Not a number where nothing is told
-    /// and nothing given. Source: process-physics.md section 4, Kirkman's relay bits.
-    pub fn flow_error(&self, told_m3_s: f64) -> f64 {
-        self.given_m3_s(told_m3_s) / told_m3_s - 1.0
-    }
-}
-
-/// Relative error of the diameter that an error of the flow makes at a given speed.
-///
-/// `dD/D = √(1 + dQ/Q) − 1`; to first order `½ dQ/Q`, which is the reference's. Minus one where the flow error is
-/// minus one or less. Source: process-physics.md section 4.
-pub fn diameter_error(flow_error: f64) -> f64 {
-    (1.0 + flow_error).max(0.0).sqrt() - 1.0
 }
 
 /// An extruder: its lag and its drive.
@@ -160,8 +115,8 @@ impl Delivered {
 
     /// Volume that comes out between two times, m³; the end may be infinite. O(log n).
     ///
-    /// Closed form: `V = Q_given t + (Q_0 − Q_given) τ (1 − e^(−t/τ))` on each piece. Below zero where a retract
-    /// draws back more than comes out, or where the times are the other way round.
+    /// Closed form: `V = Q_given t + (Q_0 − Q_given) τ (1 − e^(−t/τ))` on each piece. Below zero where a
+    /// retract draws back more than comes out, or where the times are the other way round.
     pub fn volume_m3(&self, from_s: f64, to_s: f64) -> f64 {
         self.until_m3(to_s) - self.until_m3(from_s)
     }
@@ -195,9 +150,10 @@ impl Delivered {
 
     /// What a strand made between two times lacks because the flow lags. O(n) in steps between them.
     ///
-    /// `share` is of the diameter: the bead is thin while `√(Q/Q_given) < share`, whatever the speed, and where nothing
-    /// is given. Against the flow the drive tends to; what the drive itself gives wrong is [`Drive::flow_error`].
-    /// For one step from rest at the start: missing `Q τ (1 − e^(−t/τ))`, thin for `τ ln(1/(1 − share²))`.
+    /// `share` is of the diameter: the bead is thin while `√(Q/Q_given) < share`, whatever the speed, and
+    /// where nothing is given. Against the flow the drive tends to; what the drive itself gives wrong is
+    /// [`Drive::flow_error`]. For one step from rest at the start: missing `Q τ (1 − e^(−t/τ))`, thin for
+    /// `τ ln(1/(1 − share²))`.
     pub fn starved(&self, from_s: f64, to_s: f64, share: f64) -> Starved {
         let first_s = self.pieces.first().map_or(f64::INFINITY, |piece| piece.from_s);
         let mut thin_s = (first_s.min(to_s) - from_s).max(0.0);
@@ -263,8 +219,9 @@ pub fn sphere_diameter_m(volume_m3: f64) -> f64 {
 
 /// Time of priming until the flow is a share of the flow given, s.
 ///
-/// `t = τ ln((Q_given − Q_old)/(Q_given (1 − share)))`, from rest `τ ln(1/(1 − share))`. Zero where the old flow is share
-/// enough or nothing is given; infinite where the share is one or more and the old flow is less.
+/// `t = τ ln((Q_given − Q_old)/(Q_given (1 − share)))`, from rest `τ ln(1/(1 − share))`. Zero where the old
+/// flow is share enough or nothing is given; infinite where the share is one or more and the old flow is
+/// less.
 pub fn prime_time_s(lag_s: f64, old_m3_s: f64, given_m3_s: f64, share: f64) -> f64 {
     if !(given_m3_s > 0.0 && old_m3_s < share * given_m3_s && lag_s > 0.0) {
         return 0.0;
@@ -277,11 +234,19 @@ pub fn prime_time_s(lag_s: f64, old_m3_s: f64, given_m3_s: f64, share: f64) -> f
 
 /// Time before a strand's end at which to stop the drive, so that no more than a volume follows the end, s.
 ///
-/// After the stop `Q τ e^(−t/τ)` is still to come: `t = τ ln(Q τ / V)`, at least zero. The strand's end starves by
-/// what no longer makes a blob, `Q t − Q τ (1 − e^(−t/τ))`.
+/// After the stop `Q τ e^(−t/τ)` is still to come: `t = τ ln(Q τ / V)`, at least zero. The strand's end
+/// starves by what no longer makes a blob, `Q t − Q τ (1 − e^(−t/τ))`.
 pub fn coast_time_s(lag_s: f64, flow_m3_s: f64, blob_m3: f64) -> f64 {
     if !(lag_s > 0.0 && flow_m3_s > 0.0) {
         return 0.0;
     }
     lag_s * (flow_m3_s * lag_s / blob_m3.max(0.0)).ln().max(0.0)
+}
+
+/// Volume that an extruder holds back as pressure at a steady flow, m³: `Q τ`.
+///
+/// What is missing at the start of a strand made from rest, what comes after the drive stops, and so what a
+/// retract has to take back to leave nothing. Zero where there is no lag.
+pub fn stored_m3(lag_s: f64, flow_m3_s: f64) -> f64 {
+    if lag_s > 0.0 { flow_m3_s * lag_s } else { 0.0 }
 }

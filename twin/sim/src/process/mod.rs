@@ -15,6 +15,7 @@ pub mod course;
 pub mod cure;
 mod cure_piece;
 pub mod cured;
+pub mod drive;
 pub mod elastica;
 pub mod feed;
 pub mod gel;
@@ -70,6 +71,8 @@ mod tests_feed;
 mod tests_heat;
 #[cfg(test)]
 mod tests_kinetics;
+#[cfg(test)]
+mod tests_rods;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]

@@ -37,11 +37,12 @@ pub fn round(diameter_m: f64) -> Section {
 
 /// Section of a bead laid on bed or form: a rectangle with half-round sides of this area and height.
 ///
-/// Straight part `b = A/h − π h/4`, width `w = b + h = A/h + h (1 − π/4)`, `A = Q/v`; round, of the same area,
-/// where `h` is the round diameter or more (what is free of the nozzle is not flattened). Exact:
-/// `I_y = b h³/12 + π h⁴/64`, `I_z = h b³/12 + π h⁴/64 + π h² b²/16 + b h³/6`. [`stadium_j_m4`] gives `J`. That the sides are
-/// half-round is the custom of slicers, not a solution for a spreading melt. Not a number where area or height is
-/// not positive (an area of zero is a round of zero). Source of `w ≈ Q/(v h)`: issue 4; process-physics.md section 4.
+/// Straight part `b = A/h − π h/4`, width `w = b + h = A/h + h (1 − π/4)`, `A = Q/v`; round, of the same
+/// area, where `h` is the round diameter or more (what is free of the nozzle is not flattened). Exact:
+/// `I_y = b h³/12 + π h⁴/64`, `I_z = h b³/12 + π h⁴/64 + π h² b²/16 + b h³/6`. [`stadium_j_m4`] gives `J`.
+/// That the sides are half-round is the custom of slicers, not a solution for a spreading melt. Not a number
+/// where area or height is not positive (an area of zero is a round of zero). Source of `w ≈ Q/(v h)`: issue
+/// 4; process-physics.md section 4.
 pub fn flattened(area_m2: f64, height_m: f64) -> Section {
     let diameter_m = (4.0 * area_m2 / PI).sqrt();
     if height_m >= diameter_m {
@@ -65,19 +66,20 @@ pub fn flattened(area_m2: f64, height_m: f64) -> Section {
 
 /// Torsion constant of a rectangle of straight part `b` and height `h` with half-round sides, m⁴.
 ///
-/// `J = b h³/3 + h⁴ [c + (π/32 − c) e^(−3 b/h)]`, `c = 0.06996`: exact for a circle; both ends of a long strip take `c h⁴`.
-/// Ours, fitted to the numeric Prandtl stress function of this shape (`b/h` from 0 to 6, itself good to 1e-5):
-/// within 6e-4 of it everywhere. Range: `b ≥ 0`.
+/// `J = b h³/3 + h⁴ [c + (π/32 − c) e^(−3 b/h)]`, `c = 0.06996`: exact for a circle; both ends of a long
+/// strip take `c h⁴`. Ours, fitted to the numeric Prandtl stress function of this shape (`b/h` from 0 to 6,
+/// itself good to 1e-5): within 6e-4 of it everywhere. Range: `b ≥ 0`.
 pub fn stadium_j_m4(straight_m: f64, height_m: f64) -> f64 {
     const ENDS: f64 = 0.069_96;
     let joined = (-3.0 * straight_m / height_m).exp();
     height_m.powi(3) * (straight_m / 3.0 + height_m * (ENDS + (PI / 32.0 - ENDS) * joined))
 }
 
-/// Shell of a strand cured to a depth from its surface: `A = π (R² − r²)`, `I = π (R⁴ − r⁴)/4`, `J = 2 I`, `r = R − d`.
+/// Shell of a strand cured to a depth from its surface: `A = π (R² − r²)`, `I = π (R⁴ − r⁴)/4`, `J = 2 I`,
+/// `r = R − d`.
 ///
-/// The shares of the full section are `1 − (1 − d/R)²` and `1 − (1 − d/R)⁴` (case SHELL-EI). What is inside carries nothing.
-/// Exact; the depth is held to 0..R, and not a number makes everything so.
+/// The shares of the full section are `1 − (1 − d/R)²` and `1 − (1 − d/R)⁴` (case SHELL-EI). What is inside
+/// carries nothing. Exact; the depth is held to 0..R, and not a number makes everything so.
 pub fn shell(diameter_m: f64, depth_m: f64) -> Section {
     let whole = round(diameter_m);
     let core = round(diameter_m - 2.0 * clamped(depth_m, 0.5 * diameter_m));

@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use proptest::prelude::*;
 
 use super::bead::{Station, arc_at_m};
+use super::drive::{Drive, diameter_error};
 use super::feed::{
-    Delivered, Drive, Feed, Told, coast_time_s, diameter_error, prime_time_s, sphere_diameter_m,
+    Delivered, Feed, Told, coast_time_s, prime_time_s, sphere_diameter_m, stored_m3,
 };
 use super::tests::{close, within};
 
@@ -20,7 +21,8 @@ fn deliver(lag_s: f64, steps: &[(f64, f64)]) -> Delivered {
 
 const STEPS: [(f64, f64); 5] = [(-1.0, 4e-9), (0.5, 6e-9), (1.7, 1e-9), (3.0, 5e-9), (4.0, 0.0)];
 
-/// Flow and volume at the end by the classical Runge–Kutta method from rest at −1 s, a whole number of steps to each piece.
+/// Flow and volume at the end by the classical Runge–Kutta method from rest at −1 s, a whole number of steps
+/// to each piece.
 fn marched(lag_s: f64, end_s: f64, per_piece: u32) -> (f64, f64) {
     let (mut flow, mut volume) = (0.0, 0.0);
     for (i, &(from_s, told)) in STEPS.iter().enumerate() {
@@ -160,6 +162,12 @@ fn blobs_at_both_ends() {
     let coast = coast_time_s(lag, flow, 1e-9);
     let early = deliver(lag, &[(-100.0, flow), (10.0 - coast, 0.0)]);
     close(early.volume_m3(10.0, f64::INFINITY), 1e-9, 1e-9);
+    // A retract of what is stored leaves nothing to come
+    let stored = stored_m3(lag, flow);
+    close(early.volume_m3(10.0 - coast, f64::INFINITY), stored, 1e-9);
+    let drawn = deliver(lag, &[(-100.0, flow), (10.0, -stored / 0.3), (10.3, 0.0)]);
+    within(drawn.volume_m3(10.0, f64::INFINITY) / stored, 0.0, 1e-9);
+    assert!(stored_m3(-1.0, flow) == 0.0);
     assert!(coast_time_s(lag, flow, 1.0) == 0.0 && coast_time_s(lag, flow, 0.0).is_infinite());
 }
 

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use super::section::{Section, flattened, round, shell, stadium_j_m4};
 use super::tests::{close, within};
 
-/// A quarter of a section symmetric both ways: half its width, and its half-height at each distance from the middle.
+/// A quarter of a section symmetric both ways: half its width, and its half-height at each distance from the
+/// middle.
 struct Quarter<'a> {
     half_width: f64,
     half_height: &'a dyn Fn(f64) -> f64,

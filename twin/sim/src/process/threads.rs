@@ -1,17 +1,21 @@
 //! Several threads: a thick one with thin ones around it that meet it in knots (Yu et al., first stage).
 //!
 //! The paper gives the arrangement (one fat straight thread, three thin ones that undulate and meet it
-//! periodically, like spindle knots) and no size, stiffness or strength. So everything below is **ours**, derived
-//! from these assumptions:
+//! periodically, like spindle knots) and no size, stiffness or strength. So everything below is **ours**,
+//! derived from these assumptions:
 //!
-//! - the core is straight and round; the thin threads are round, evenly spaced around it, all in phase, each in
-//!   a plane with the core's axis: `r(x) = r_k + a (1 − cos 2πx/p)/2`, `r_k` at a knot, `a` the sweep, `p` the pitch;
+//! - the core is straight and round; the thin threads are round, evenly spaced around it, all in phase, each
+//!   in a plane with the core's axis: `r(x) = r_k + a (1 − cos 2πx/p)/2`, `r_k` at a knot, `a` the sweep, `p` the
+//!   pitch;
 //! - a knot is rigid and has no length; between knots nothing touches;
-//! - threads bend, twist and stretch as slender elastic rods of one material (Euler and Bernoulli); their material's own shear is
-//!   left out, so pitches under about five thread diameters come out too stiff.
+//! - threads bend, twist and stretch as slender elastic rods of one material (Euler and Bernoulli); their
+//!   material's own shear is left out: of the core's flexibility when sheared it would add `2.3 (D/p)²`, a tenth
+//!   at a pitch of five core diameters.
 //!
-//! Within them the stiffness of one pitch is exact (energy of the rods, integrals over the curve), not fitted. A pitch then
-//! answers to four motions of its two knots: apart, twisted, bent, sheared; the chain of pitches follows in closed form.
+//! Within them the stiffness of one pitch is exact (energy of the rods, integrals over the curve), not
+//! fitted. A pitch answers to four motions of its two knots: apart, twisted, bent, sheared; the chain of
+//! pitches follows in closed form. A real knot is a contact and gives way, which takes these numbers towards
+//! the core alone. Strength and toughness, which the paper is after, are not here.
 
 use std::f64::consts::PI;
 
@@ -53,8 +57,9 @@ pub struct Stiffness {
 
 /// Flexibility of one thin thread between its knots, per Young's modulus: an arch clamped at both ends.
 ///
-/// Each is an integral over the curve of the squares of what a unit load makes at each place (Castigliano), loads
-/// taken where by symmetry they do not mix. Slope `ψ`, `s` along the thread, `GJ = EI/(1 + ν)` of a round rod.
+/// Each is an integral over the curve of the squares of what a unit load makes at each place (Castigliano),
+/// loads taken where by symmetry they do not mix. Slope `ψ`, `s` along the thread, `GJ = EI/(1 + ν)` of a
+/// round rod.
 struct Arch {
     /// Length of the thread, m.
     length_m: f64,
@@ -95,8 +100,8 @@ impl Knotted {
 
     /// Integral over the thread's length of a law of (along from the middle, out, cos, sin of the slope).
     ///
-    /// The law must be even about the middle. Gauss–Legendre, three points to each of 32 panels on half the pitch:
-    /// sixth order, 1e-9 for sweeps up to half the pitch.
+    /// The law must be even about the middle. Gauss–Legendre, three points to each of 32 panels on half the
+    /// pitch: sixth order, 1e-9 for sweeps up to half the pitch.
     fn along<const N: usize>(&self, law: impl Fn([f64; 4]) -> [f64; N]) -> [f64; N] {
         const PANELS: u32 = 32;
         let mut sums = [0.0; N];
@@ -159,7 +164,8 @@ impl Knotted {
             + f64::from(self.count) * area_m2(self.thread_m) * self.thread_length_ratio()
     }
 
-    /// Bending stiffness if nothing carried shear between the threads and they were straight, N m²: `E (I_D + n I_d)`.
+    /// Bending stiffness if nothing carried shear between the threads and they were straight, N m²:
+    /// `E (I_D + n I_d)`.
     ///
     /// A lower bound while threads are straight; a swept one is longer, so it resists less than its `E I_d`.
     pub fn loose_bending_n_m2(&self, youngs_pa: f64) -> f64 {
@@ -169,8 +175,8 @@ impl Knotted {
 
     /// Bending stiffness if the threads were bonded to the core all along, N m²: an upper bound.
     ///
-    /// `E [I_D + n I_d + (n/2) A_d ⟨r²⟩]`, parallel axes, plane sections; `⟨r²⟩ = (r_k + a/2)² + a²/8` over the pitch. The
-    /// `n/2` is `Σ cos²` of even angles: the same in every direction from three threads on.
+    /// `E [I_D + n I_d + (n/2) A_d ⟨r²⟩]`, parallel axes, plane sections; `⟨r²⟩ = (r_k + a/2)² + a²/8` over
+    /// the pitch. The `n/2` is `Σ cos²` of even angles: the same in every direction from three threads on.
     pub fn bonded_bending_n_m2(&self, youngs_pa: f64) -> f64 {
         let mean = self.knot_offset_m + 0.5 * self.sweep_m;
         let square = mean * mean + 0.125 * self.sweep_m * self.sweep_m;
@@ -180,12 +186,13 @@ impl Knotted {
 
     /// Stiffness of a chain of pitches between rigid knots. Constant cost.
     ///
-    /// With each thread's flexibilities `C` over a pitch, averaged over the directions of even angles:
-    /// axial `E A_D + n p/C_apart`; bending `E I_D + (n/2) p [1/C_in + r̄²/C_apart + 1/C_out]`; parts
-    /// `E I_D + (n/2)(p³/12)[1/C_in + 1/C_out]` of the shear motions; torsion `G J_D + n p/C_twisted`. Straight threads
-    /// (`a = 0`) give the bonded bending at any pitch; swept ones give way as arches, and where shallow keep
-    /// `1/(1 + 2 (a/d)²)` of their `E A`. Range: the module's assumptions, a sweep up to the pitch. Not a number where a
-    /// diameter or the pitch is not positive or a sweep below zero, or with one or two threads.
+    /// With each thread's flexibilities `C` over a pitch, averaged over the directions of even angles: axial
+    /// `E A_D + n p/C_apart`; bending `E I_D + (n/2) p [1/C_in + r̄²/C_apart + 1/C_out]`; parts
+    /// `E I_D + (n/2)(p³/12)[1/C_in + 1/C_out]` of the shear motions; torsion `G J_D + n p/C_twisted`.
+    /// Straight threads (`a = 0`) give the bonded bending at any pitch; swept ones give way as arches, and
+    /// where shallow keep `1/(1 + 2 (a/d)²)` of their `E A`, so bending is stiffest at a sweep of
+    /// `d²/(4 r_k)`. Range: the module's assumptions, a sweep up to the pitch. Not a number where a diameter
+    /// or the pitch is not positive or a sweep below zero, or with one or two threads.
     pub fn stiffness(&self, youngs_pa: f64, poisson: f64) -> Stiffness {
         let sound = self.core_m > 0.0
             && self.thread_m > 0.0
@@ -212,10 +219,11 @@ impl Knotted {
 impl Stiffness {
     /// Bending stiffness of a uniform beam that bends as much over a span, N m².
     ///
-    /// `1/B_span = (1 − g)/B + g/B_parts`, `g = (1 − cos q)/(4 + 2 cos q)`, `q = π p/L` held to π. Exact for pinned ends, a
-    /// whole number of pitches and a load at the knots that goes as half a sine wave (both beams under the same
-    /// loads, deflection at the knots): solution of the chain's difference equation. A short pitch gives `B`; a pitch of
-    /// the span or more gives the parts alone. For a cantilever take twice its length. Span not positive: the parts.
+    /// `1/B_span = (1 − g)/B + g/B_parts`, `g = (1 − cos q)/(4 + 2 cos q)`, `q = π p/L` held to π. Exact for
+    /// pinned ends, a whole number of pitches and a load at the knots that goes as half a sine wave (both
+    /// beams under the same loads, deflection at the knots): solution of the chain's difference equation. A
+    /// short pitch gives `B`; a pitch of the span or more gives the parts alone. For a cantilever take twice
+    /// its length. Span not positive: the parts.
     pub fn bending_over_span_n_m2(&self, span_m: f64) -> f64 {
         let q = if span_m > self.pitch_m { PI * self.pitch_m / span_m } else { PI };
         let loose = (1.0 - q.cos()) / (4.0 + 2.0 * q.cos());
