@@ -6,16 +6,22 @@
 
 pub mod bead;
 pub mod cure;
+pub mod dose;
 pub mod elastica;
 pub mod gel;
 pub mod heat;
 pub mod history;
+pub mod lamp;
 pub mod light;
+pub mod lights;
 pub mod material;
+mod reach;
 pub mod sag;
+pub mod shade;
 pub mod shrinkage;
 pub mod soft;
 pub mod strand;
+mod sweep;
 pub mod viscosity;
 
 pub use history::History;
@@ -28,6 +34,8 @@ pub use viscosity::CrossWlf;
 mod reference;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_dose;
 #[cfg(test)]
 mod tests_heat;
 #[cfg(test)]
