@@ -15,6 +15,7 @@ pub mod course;
 pub mod cure;
 mod cure_piece;
 pub mod cured;
+pub mod dose;
 pub mod drive;
 pub mod elastica;
 pub mod feed;
@@ -25,19 +26,24 @@ pub mod history;
 pub mod jet;
 pub mod kamal;
 pub mod kinetics;
+pub mod lamp;
 pub mod light;
+pub mod lights;
 pub mod material;
 pub mod oxygen;
 pub mod plastic_bending;
 pub mod radial;
+mod reach;
 pub mod reheat;
 pub mod rod;
 pub mod sag;
 pub mod section;
+pub mod shade;
 pub mod shrinkage;
 pub mod soft;
 pub mod solid;
 pub mod strand;
+mod sweep;
 pub mod tait;
 pub mod thermal;
 pub mod threads;
@@ -65,6 +71,8 @@ mod tests_bead;
 mod tests_clock;
 #[cfg(test)]
 mod tests_cured;
+#[cfg(test)]
+mod tests_dose;
 #[cfg(test)]
 mod tests_feed;
 #[cfg(test)]

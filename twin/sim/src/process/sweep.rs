@@ -1,0 +1,297 @@
+//! The run of the nozzle past a strand, cut into steps, and the segments in reach of the lamps at each.
+
+use crate::pose::{Point, Vector};
+
+use super::dose::{Irradiance, Run, Segment, SegmentDose, Strand, mean, normals};
+use super::lamp::{Lamp, Lobe};
+use super::lights::{LEAST_SHARE, LampSet, Lights, Scene, Station};
+use super::reach::Tree;
+
+/// Finer pieces of a step where something happens within it.
+const FINE: usize = 8;
+/// Most steps between two stations.
+const MOST_STEPS: f64 = 256.0;
+/// Step of the lamps, in standard widths of the lobe.
+const STEP_WIDTHS: f64 = 0.4;
+
+/// See [`add_run`](super::dose::add_run).
+pub(super) fn sweep(
+    segments: &[Segment],
+    doses: &mut [SegmentDose],
+    run: &Run,
+    strand: &Strand,
+) -> usize {
+    let azimuths = strand.azimuths.clamp(3, 64);
+    let fits = |dose: &SegmentDose| {
+        dose.surface_j_m2.len() == azimuths && dose.beam_j_m2.len() == azimuths
+    };
+    let radius_m = strand.radius_m;
+    let ready = !segments.is_empty() && doses.len() >= segments.len() && doses.iter().all(fits);
+    if !ready || run.stations.is_empty() || !(radius_m > 0.0) {
+        return 0;
+    }
+    let tree = Tree::over(segments);
+    let grain = Grain::of(run);
+    let mut sweep = Sweep::new(segments, azimuths, strand);
+    let mut reached = Vec::new();
+    for pair in spans(run) {
+        let (count, slack_m, slack_rad) = grain.steps(&pair, run.lights);
+        for i in 0..count {
+            let cut = |i: usize| pair[0].towards(&pair[1], i as f64 / count as f64);
+            let mut step = Step::new([cut(i), cut(i + 1)], run.lights);
+            if step.middle.lamps.is_empty() {
+                continue;
+            }
+            let until_s = step.ends[1].time_s;
+            let lit = |centre: Point, size_m: f64, born_s: f64| {
+                let size_m = size_m + radius_m;
+                born_s < until_s
+                    && step.middle.reaches(centre, size_m, slack_m, slack_rad, grain.floor_w_m2)
+            };
+            reached.clear();
+            tree.walk(&lit, &mut reached);
+            for &index in &reached {
+                sweep.add(index, &mut doses[index], &mut step);
+            }
+        }
+    }
+    sweep.looks
+}
+
+/// A strand being lit.
+struct Sweep<'a> {
+    segments: &'a [Segment],
+    /// Outward normals, `azimuths` to a segment.
+    around: Vec<Vector>,
+    strand: &'a Strand,
+    azimuths: usize,
+    now: Irradiance,
+    /// What was hidden from each segment when it was last looked at.
+    hidden: Vec<u64>,
+    looks: usize,
+}
+
+impl<'a> Sweep<'a> {
+    fn new(segments: &'a [Segment], azimuths: usize, strand: &'a Strand) -> Self {
+        let mut around = Vec::with_capacity(azimuths * segments.len());
+        for segment in segments {
+            normals(segment, azimuths, &mut around);
+        }
+        let (now, hidden) = (Irradiance::dark(azimuths), vec![0; segments.len()]);
+        Self { segments, around, strand, azimuths, now, hidden, looks: 0 }
+    }
+
+    fn look(&mut self, index: usize, scene: &Scene) {
+        self.looks += 1;
+        let normals = &self.around[index * self.azimuths..(index + 1) * self.azimuths];
+        self.now.fill(scene, self.segments[index].middle, normals, self.strand.radius_m);
+    }
+
+    /// Adds a step to a segment: by its middle, or in finer pieces where the segment is born, gels or meets
+    /// the edge of a shadow.
+    fn add(&mut self, index: usize, dose: &mut SegmentDose, step: &mut Step) {
+        let born_s = self.segments[index].born_s;
+        let [from_s, until_s] = [step.ends[0].time_s, step.ends[1].time_s];
+        if born_s >= until_s {
+            return;
+        }
+        let before = self.hidden[index];
+        self.look(index, &step.middle);
+        let (mut fine, mut after) = (born_s > from_s, self.now.hidden);
+        if self.now.near_shade {
+            self.look(index, step.end());
+            after = self.now.hidden;
+            self.look(index, &step.middle);
+        }
+        fine |= before != self.now.hidden || after != self.now.hidden;
+        self.hidden[index] = after;
+        let span_s = until_s - from_s;
+        if !fine && !self.gels(dose, span_s) {
+            self.take(dose, from_s - born_s, span_s);
+            return;
+        }
+        let piece_s = span_s / FINE as f64;
+        for i in 0..FINE {
+            let start_s = (from_s + piece_s * i as f64).max(born_s);
+            let stop_s = from_s + piece_s * (i + 1) as f64;
+            if start_s < stop_s {
+                self.look(index, step.fine(i));
+                self.take(dose, start_s - born_s, stop_s - start_s);
+            }
+        }
+    }
+
+    /// Whether the surface gels within a time at the irradiance there is now.
+    fn gels(&self, dose: &SegmentDose, span_s: f64) -> bool {
+        (dose.gel_s.is_infinite() && self.wait_s(dose) <= span_s)
+            || (dose.mean_gel_s.is_infinite() && self.mean_wait_s(dose) <= span_s)
+    }
+
+    /// How long until the last azimuth reaches the critical exposure at this irradiance, s.
+    fn wait_s(&self, dose: &SegmentDose) -> f64 {
+        let pairs = dose.surface_j_m2.iter().zip(&self.now.surface);
+        pairs.map(|(had, gets)| self.wait_of_s(*had, *gets)).fold(0.0, f64::max)
+    }
+
+    fn mean_wait_s(&self, dose: &SegmentDose) -> f64 {
+        self.wait_of_s(dose.mean_j_m2(), mean(&self.now.surface))
+    }
+
+    fn wait_of_s(&self, had_j_m2: f64, gets_w_m2: f64) -> f64 {
+        let missing = self.strand.critical_j_m2 - had_j_m2;
+        // Not a number counts as never.
+        match (missing <= 0.0, gets_w_m2 > 0.0) {
+            (true, _) => 0.0,
+            (false, true) if missing.is_finite() => missing / gets_w_m2,
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn take(&self, dose: &mut SegmentDose, age_s: f64, span_s: f64) {
+        if dose.gel_s.is_infinite() {
+            let wait_s = self.wait_s(dose);
+            dose.gel_s = if wait_s <= span_s { age_s + wait_s } else { f64::INFINITY };
+        }
+        if dose.mean_gel_s.is_infinite() {
+            let wait_s = self.mean_wait_s(dose);
+            dose.mean_gel_s = if wait_s <= span_s { age_s + wait_s } else { f64::INFINITY };
+        }
+        dose.peak_w_m2 = dose.peak_w_m2.max(mean(&self.now.surface));
+        for (had, gets) in dose.surface_j_m2.iter_mut().zip(&self.now.surface) {
+            *had += gets * span_s;
+        }
+        for (had, gets) in dose.beam_j_m2.iter_mut().zip(&self.now.beam) {
+            *had += gets * span_s;
+        }
+    }
+}
+
+/// A short piece of the run and the scenes within it, the finer ones made when first asked for.
+struct Step<'a> {
+    ends: [Station; 2],
+    lights: &'a Lights,
+    middle: Scene,
+    end: Option<Scene>,
+    fine: Vec<Scene>,
+}
+
+impl<'a> Step<'a> {
+    fn new(ends: [Station; 2], lights: &'a Lights) -> Self {
+        let mut step = Self { ends, lights, middle: Scene::default(), end: None, fine: vec![] };
+        step.middle = step.scene(0.5);
+        step
+    }
+
+    fn scene(&self, share: f64) -> Scene {
+        // No lamp is switched inside a step: its middle says which are on.
+        let lit_at_s = 0.5 * (self.ends[0].time_s + self.ends[1].time_s);
+        self.lights.scene(&self.ends[0].towards(&self.ends[1], share), lit_at_s)
+    }
+
+    fn end(&mut self) -> &Scene {
+        if self.end.is_none() {
+            self.end = Some(self.scene(1.0));
+        }
+        self.end.as_ref().unwrap_or(&self.middle)
+    }
+
+    fn fine(&mut self, i: usize) -> &Scene {
+        if self.fine.is_empty() {
+            let scene = |i| self.scene((f64::from(i) + 0.5) / FINE as f64);
+            self.fine = (0..FINE as u32).map(scene).collect();
+        }
+        &self.fine[i]
+    }
+}
+
+/// The run between stations, cut where a set of lamps is switched, with the dwell at the end.
+fn spans(run: &Run) -> Vec<[Station; 2]> {
+    let mut switches: Vec<f64> = run.lights.switch_times_s().collect();
+    switches.sort_by(f64::total_cmp);
+    let mut spans = Vec::with_capacity(run.stations.len() + switches.len());
+    let mut cut = |a: &Station, b: &Station| {
+        let span_s = b.time_s - a.time_s;
+        if !(span_s > 0.0 && span_s.is_finite()) {
+            return;
+        }
+        let first = switches.partition_point(|t| *t <= a.time_s);
+        let mut from = *a;
+        for at_s in switches[first..].iter().take_while(|t| **t < b.time_s) {
+            let to = a.towards(b, (at_s - a.time_s) / span_s);
+            spans.push([from, to]);
+            from = to;
+        }
+        spans.push([from, *b]);
+    };
+    for pair in run.stations.windows(2) {
+        cut(&pair[0], &pair[1]);
+    }
+    if let Some(last) = run.stations.last() {
+        let rested = Station { time_s: last.time_s + run.dwell_s, ..*last };
+        cut(last, &rested);
+    }
+    spans
+}
+
+/// How fine to cut, and where to stop looking.
+struct Grain {
+    /// Irradiance below which a lamp is left out, W/m².
+    floor_w_m2: f64,
+    /// Standard width of the lobe at the nozzle, m, least over the lamps of each set.
+    widths_m: Vec<f64>,
+    /// From the carrier's origin to the farthest lamp, m, for each set.
+    arms_m: Vec<f64>,
+}
+
+impl Grain {
+    fn of(run: &Run) -> Self {
+        let mut grain = Self { floor_w_m2: 0.0, widths_m: vec![], arms_m: vec![] };
+        let mut most: f64 = 0.0;
+        for set in &run.lights.sets {
+            let mut width_m = f64::INFINITY;
+            for station in run.stations {
+                let pose = station.part_from(set.carrier);
+                for lamp in &set.lamps {
+                    let distance_m = (pose * lamp.at - station.point).norm();
+                    width_m = width_m.min(distance_m * spread_rad(lamp));
+                    most = most.max(lamp.peak_w_sr / (distance_m * distance_m));
+                }
+            }
+            grain.widths_m.push(width_m);
+            let arm_m = |lamp: &Lamp| lamp.at.coords.norm();
+            grain.arms_m.push(set.lamps.iter().map(arm_m).fold(0.0, f64::max));
+        }
+        grain.floor_w_m2 = LEAST_SHARE * most;
+        grain
+    }
+
+    /// How many steps a span takes, and how far lamps move (m) and turn (rad) in one.
+    fn steps(&self, span: &[Station; 2], lights: &Lights) -> (usize, f64, f64) {
+        let (mut count, mut most_m, mut most_rad): (f64, f64, f64) = (1.0, 0.0, 0.0);
+        let sizes = self.widths_m.iter().zip(&self.arms_m);
+        for (set, (width_m, arm_m)) in lights.sets.iter().zip(sizes) {
+            let (moved_m, turned_rad) = carried(set, span);
+            let moved_m = moved_m + turned_rad * arm_m;
+            let steps = (moved_m / (STEP_WIDTHS * width_m)).ceil();
+            count = count.max(steps);
+            (most_m, most_rad) = (most_m.max(moved_m), most_rad.max(turned_rad));
+        }
+        let count = count.clamp(1.0, MOST_STEPS);
+        (count as usize, most_m / count, most_rad / count)
+    }
+}
+
+/// How far a carrier's origin moves and how far it turns over a span, seen from the part.
+fn carried(set: &LampSet, span: &[Station; 2]) -> (f64, f64) {
+    let [a, b] = [span[0].part_from(set.carrier), span[1].part_from(set.carrier)];
+    let moved = a.translation.vector - b.translation.vector;
+    (moved.norm(), a.rotation.angle_to(&b.rotation))
+}
+
+/// Standard width of a lobe, rad.
+fn spread_rad(lamp: &Lamp) -> f64 {
+    match lamp.lobe {
+        Lobe::Gaussian => 0.5 * lamp.full_angle_rad.abs() / (2.0 * std::f64::consts::LN_2).sqrt(),
+        Lobe::Lambert(power) => 1.0 / power.max(1.0).sqrt(),
+    }
+}
