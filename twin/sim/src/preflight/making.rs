@@ -9,8 +9,14 @@ use crate::growth::StrandLaw;
 use crate::interval::Interval;
 use crate::motion::{Leg, Motion};
 use crate::pose::{Point, Vector};
+use crate::process::bead::Orifice;
+use crate::process::drive::Drive;
+use crate::process::fed::{self, Fed};
+use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
-use crate::process::{self, Air, Course, Ends, Fidelity, StrandInput, StrandOutcome};
+use crate::process::sag::stretched_sag_m;
+use crate::process::soft_rod::{self, Sagged};
+use crate::process::{self, Air, Course, Ends, Fidelity, Heats, StrandInput, StrandOutcome};
 use crate::toolpath::Path;
 
 /// What became of one strand.
@@ -28,6 +34,12 @@ pub struct StrandResult {
     pub touches: usize,
     /// Whether anything holds its start.
     pub start_held: bool,
+    /// How it was made.
+    pub course: Course,
+    /// Its beads along its length.
+    pub fed: Fed,
+    /// What the ageing rod makes of it, where the closed form says more than a tenth of the bead.
+    pub sagged: Option<Sagged>,
 }
 
 /// Makes every strand, in printing order, and judges it.
@@ -87,7 +99,14 @@ pub(super) fn as_printed(job: &Job, motion: &Motion, strands: &[StrandResult]) -
             if sag_m > 0.0 { refine(&as_planned, &at_m) } else { (at_m, as_planned) };
         Printed {
             strand: printing.strand,
-            as_printed: deposit::sagged(&fine, &fine_m, sag_m, result.down),
+            as_printed: match &result.sagged {
+                Some(sagged) if sag_m > 0.0 => {
+                    let share = sag_m / sagged.greatest_m;
+                    let offset = |at_m: f64| Vector::from(sagged.offset_at(at_m)) * share;
+                    fine.iter().zip(&fine_m).map(|(point, at_m)| point + offset(*at_m)).collect()
+                }
+                _ => deposit::sagged(&fine, &fine_m, sag_m, result.down),
+            },
             as_planned: fine,
             at_m: fine_m,
             radius_m: result.outcome.bead_diameter_m.nominal / 2.0,
@@ -135,18 +154,19 @@ fn make_one(
 ) -> StrandResult {
     let strand = &job.strands[printed.strand];
     let tool = &job.cell.tool;
-    let Hold { ends, span_m, start_held } = hold(job, printed, contacts);
+    let Hold { ends, span_m, start_held, stretch_m } = hold(job, printed, contacts);
     let is_print = |leg: &&Leg| leg.phase == Phase::Print && leg.strand == Some(printed.strand);
     let leg = motion.legs.iter().find(is_print);
     let course = course(job, path, leg);
     let (across_m_s2, down) = gravity_across(&course);
-    let (speed_m_s, flow_m3_s) = mean_speed_and_flow(path);
+    let fed = feed(job, path, &course);
+    let (speed_m_s, _) = mean_speed_and_flow(path);
     let input = StrandInput {
         fidelity: Fidelity::Full,
         length_m: path.length_m,
         span_m,
         speed_m_s,
-        flow_m3_s,
+        flow_m3_s: fed.mean_flow_m3_s,
         nozzle_diameter_m: tool.orifice_m,
         swell: job.cell.extruder.swell,
         gravity_across_m_s2: across_m_s2,
@@ -160,9 +180,70 @@ fn make_one(
         },
         light: tool.light_ring,
     };
-    let outcome = process::simulate(&input, &job.material);
+    let heats = Heats::new(&input, &job.material);
+    let mut outcome = process::simulate_with(&input, &job.material, &heats);
+    let rod = Rod { input: &input, course: &course, job, heats: &heats, stretch_m };
+    let sagged = rod.replaces(&mut outcome);
     let touches = contacts.len();
-    StrandResult { strand: printed.strand, input, outcome, down, touches, start_held }
+    let strand = printed.strand;
+    StrandResult { strand, input, outcome, down, touches, start_held, course, fed, sagged }
+}
+
+/// The ageing rod in the place of the closed form.
+struct Rod<'a> {
+    input: &'a StrandInput,
+    course: &'a Course,
+    job: &'a Job,
+    heats: &'a Heats,
+    stretch_m: [f64; 2],
+}
+
+/// Share of the bead's diameter from which the rod is asked.
+const ROD_FROM: f64 = 0.1;
+
+impl Rod<'_> {
+    /// Sag A by the rod at all corners, where the closed form's nominal value is past a tenth of the bead.
+    fn replaces(&self, outcome: &mut StrandOutcome) -> Option<Sagged> {
+        let diameter_m = outcome.hot_diameter_m;
+        if !(outcome.sag_nozzle_m.nominal > ROD_FROM * diameter_m) {
+            return None;
+        }
+        let at = |corner| {
+            let (input, material) = (self.input, &self.job.material);
+            soft_rod::sag(input, self.course, material, self.heats, self.stretch_m, corner)
+        };
+        let (nominal, low, high) = (at(Corner::Nominal)?, at(Corner::Fast)?, at(Corner::Slow)?);
+        let stretched = |sagged: &Sagged| stretched_sag_m(sagged.greatest_m, diameter_m);
+        let (sag_m, linear) = stretched(&nominal);
+        outcome.sag_nozzle_m = Interval::new(sag_m, stretched(&low).0, stretched(&high).0);
+        outcome.sag_linear = linear;
+        outcome.laws.push("ageing rod");
+        Some(nominal)
+    }
+}
+
+/// The strand's beads by the extruder's lag and levels and the arm's true speed.
+fn feed(job: &Job, path: &Path, course: &Course) -> Fed {
+    let extruder = &job.cell.extruder;
+    let drive = if extruder.levels_m3_s.is_empty() {
+        Drive::Any
+    } else {
+        Drive::Levels(extruder.levels_m3_s.clone())
+    };
+    let orifice = Orifice {
+        nozzle_m: job.cell.tool.orifice_m,
+        swell: extruder.swell.nominal,
+        hot_kg_m3: job.material.fresh_density_kg_m3().nominal,
+        cold_kg_m3: job.material.density_kg_m3.nominal,
+    };
+    let lag_s = extruder.lag_s.map_or(0.0, |lag| lag.nominal);
+    let strand = &job.strands[path.strand];
+    let asked = |at_m: f64| {
+        let (speed_m_s, flow_m3_s) = strand.asked(at_m);
+        (flow_m3_s, speed_m_s)
+    };
+    let extruder = fed::Extruder { lag_s, drive, orifice };
+    fed::feed(course, path.length_m, &extruder, 1.0 - job.limits.bead_band, asked)
 }
 
 /// Length of strand behind the nozzle along which jets told one by one are looked for, m.
@@ -207,13 +288,20 @@ struct Hold {
     /// Its longest unsupported span, m.
     span_m: f64,
     start_held: bool,
+    /// Where that span lies, arc lengths, m.
+    stretch_m: [f64; 2],
 }
 
 fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> Hold {
     let strand = &job.strands[printed.strand];
     let length_m = printed.at_m[printed.at_m.len() - 1];
     if strand.on != On::Air {
-        return Hold { ends: Ends::Resting, span_m: length_m, start_held: true };
+        return Hold {
+            ends: Ends::Resting,
+            span_m: length_m,
+            start_held: true,
+            stretch_m: [0.0, length_m],
+        };
     }
     let near_m = 2.0 * printed.radius_m;
     let touches =
@@ -239,11 +327,20 @@ fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> Hold {
     let leading_m = if start_held { 0.0 } else { lead_m };
     let overhang_m = f64::max(trailing_m, leading_m);
     if overhang_m > near_m {
-        return Hold { ends: Ends::StartHeld, span_m: overhang_m, start_held };
+        let stretch_m = if trailing_m >= leading_m {
+            [length_m - trailing_m, length_m]
+        } else {
+            [0.0, leading_m]
+        };
+        return Hold { ends: Ends::StartHeld, span_m: overhang_m, start_held, stretch_m };
     }
-    let widest_m = holds.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    let span_m = if widest_m > 0.0 { widest_m } else { length_m };
-    Hold { ends: Ends::BothHeld, span_m, start_held }
+    let longest = |a: [f64; 2], b: &[f64]| if b[1] - b[0] > a[1] - a[0] { [b[0], b[1]] } else { a };
+    let mut stretch_m = holds.windows(2).fold([0.0, 0.0], longest);
+    if stretch_m[1] <= stretch_m[0] {
+        stretch_m = [0.0, length_m];
+    }
+    let span_m = stretch_m[1] - stretch_m[0];
+    Hold { ends: Ends::BothHeld, span_m, start_held, stretch_m }
 }
 
 /// What the structure needs to know. The strain of a strand whose end is free is its end-point

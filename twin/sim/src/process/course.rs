@@ -64,6 +64,25 @@ impl Course {
         }
     }
 
+    /// Direction of travel at an arc length.
+    pub fn tangent_at(&self, at_m: f64) -> Vector {
+        let k = self.stations.partition_point(|station| station.at_m <= at_m);
+        self.stations[k.clamp(1, self.stations.len()) - 1].tangent
+    }
+
+    /// Gravity at a time, part axes, m/s²: straight between stations, held before and after.
+    pub fn gravity_at(&self, time_s: f64) -> Vector {
+        let k = self.stations.partition_point(|station| station.time_s <= time_s);
+        match (self.stations.get(k.wrapping_sub(1)), self.stations.get(k)) {
+            (Some(a), Some(b)) => {
+                let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+                a.gravity_m_s2 + (b.gravity_m_s2 - a.gravity_m_s2) * share
+            }
+            (Some(at), None) | (None, Some(at)) => at.gravity_m_s2,
+            (None, None) => Vector::zeros(),
+        }
+    }
+
     /// Whether the lights are on at a time.
     pub fn lit_at(&self, time_s: f64) -> bool {
         let k = self.light.partition_point(|told| told.from_s <= time_s);

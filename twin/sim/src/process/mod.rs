@@ -18,6 +18,7 @@ pub mod cured;
 pub mod dose;
 pub mod drive;
 pub mod elastica;
+pub mod fed;
 pub mod feed;
 pub mod gel;
 pub mod healing;
@@ -41,6 +42,7 @@ pub mod section;
 pub mod shade;
 pub mod shrinkage;
 pub mod soft;
+pub mod soft_rod;
 pub mod solid;
 pub mod strand;
 mod sweep;
@@ -58,7 +60,9 @@ pub use material::{
     GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw, Thermoplastic,
     TwoPart, WeldLaw,
 };
-pub use strand::{Air, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate};
+pub use strand::{
+    Air, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate, simulate_with,
+};
 pub use viscosity::CrossWlf;
 
 #[cfg(test)]

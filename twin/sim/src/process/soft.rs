@@ -109,12 +109,18 @@ pub fn melt_fluidity(plastic: &Thermoplastic, heat: &Heat) -> Fluidity {
 /// The same with a number of quadrature panels to each of its pieces, in the jet and after.
 pub fn melt_fluidity_with(plastic: &Thermoplastic, heat: &Heat, panels: u32) -> Fluidity {
     let viscosity = plastic.viscosity;
-    let rigid_pa_s = viscosity.zero_shear_pa_s(heat.start_k()) / RIGID;
-    let end_s = heat.time_to_s(viscosity.temperature_k(rigid_pa_s)).min(PATIENCE_S);
+    let end_s = rigid_age_s(plastic, heat);
     let fluidity = |age_s: f64| 1.0 / (3.0 * viscosity.zero_shear_pa_s(heat.temperature_k(age_s)));
     if heat.jet_until_s() > 0.0 && heat.jet_until_s() < end_s {
         Fluidity::integrate(fluidity, &[0.0, heat.jet_until_s(), end_s], panels)
     } else {
         Fluidity::integrate(fluidity, &[0.0, end_s], panels)
     }
+}
+
+/// Age from which a melt is rigid, s: its fluidity is then 1e-14 of that at the nozzle; at most an hour.
+pub fn rigid_age_s(plastic: &Thermoplastic, heat: &Heat) -> f64 {
+    let viscosity = plastic.viscosity;
+    let rigid_pa_s = viscosity.zero_shear_pa_s(heat.start_k()) / RIGID;
+    heat.time_to_s(viscosity.temperature_k(rigid_pa_s)).min(PATIENCE_S)
 }

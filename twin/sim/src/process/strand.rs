@@ -171,6 +171,11 @@ pub struct StrandOutcome {
 /// end miss; penetration, critical exposure and lamp for the shell. Inputs out of their domain (speed or flow not positive)
 /// give numbers that are not finite, never a panic.
 pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
+    simulate_with(input, material, &Heats::new(input, material))
+}
+
+/// The same with the temperatures of [`Heats::new`] made before.
+pub fn simulate_with(input: &StrandInput, material: &Material, heats: &Heats) -> StrandOutcome {
     let hot_m = drawn_diameter_m(input.flow_m3_s, input.speed_m_s);
     let fresh = material.fresh_density_kg_m3();
     let bead_diameter_m = match material.setting {
@@ -187,9 +192,8 @@ pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
     let ratio =
         |swell| draw_ratio(input.flow_m3_s, input.speed_m_s, input.nozzle_diameter_m, swell);
     let draw_ratio = input.swell.map(ratio);
-    let heats = Heats::new(input, material);
-    let set_time_s = set_time_s(input, material, &heats);
-    let sag = nozzle_sag(input, material, &heats);
+    let set_time_s = set_time_s(input, material, heats);
+    let sag = nozzle_sag(input, material, heats);
     let free_strain = free_strain(material, input.air.temperature_k);
     let shell = shell(input, material, bead_diameter_m.nominal / 2.0);
     let youngs_modulus_pa = set_modulus_pa(input, material);
@@ -208,7 +212,7 @@ pub fn simulate(input: &StrandInput, material: &Material) -> StrandOutcome {
         sag_linear: sag.linear,
         sag_slack_m: slack_m(input, draw_ratio, free_strain),
         sag_set_m: sag_set_m(input, material, bead_diameter_m.nominal, stiffness),
-        end_miss_m: end_miss_m(input, material, &heats),
+        end_miss_m: end_miss_m(input, material, heats),
         uncured_core_m: shell.core_m,
         area_fraction: shell.area,
         stiffness_fraction: shell.stiffness,
