@@ -11,6 +11,8 @@ use super::cooled::Cooled;
 mod run;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_cases;
 
 /// 0 °C, K.
 const ZERO_C_K: f64 = 273.15;
@@ -59,7 +61,7 @@ pub struct Surroundings<'a> {
     /// Heat transfer, W/(m² K), at a surface temperature, K, and an age, s; see [`super::air_side`]. Below
     /// zero counts as zero.
     pub h_w_m2k: &'a dyn Fn(f64, f64) -> f64,
-    /// Heat made in the strand at an age, s, W/m³, everywhere alike: the heat of cure.
+    /// Heat made in the strand at an age, s, W/m³: the heat of cure, taken alike over the section (ours).
     pub source_w_m3: &'a dyn Fn(f64) -> f64,
 }
 

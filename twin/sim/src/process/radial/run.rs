@@ -47,6 +47,7 @@ impl Look {
         Self { temperature_k: zeros, capacity, pass, rate, loss: 0.0, source: 0.0, surface_k: 0.0 }
     }
 
+    /// Looks anew.
     fn fill(&mut self, strand: &RoundStrand, around: &Surroundings, content: &[f64], age_s: f64) {
         let per_density = 1.0 / strand.density_kg_m3;
         let places = self.temperature_k.iter_mut().zip(&mut self.capacity);
@@ -54,7 +55,7 @@ impl Look {
             (*temperature_k, *capacity) = temperature_and_capacity(strand, h * per_density);
         }
         let (t, rings, radius_m) = (&self.temperature_k, content.len(), 0.5 * strand.diameter_m);
-        // Kept above nothing, so that what a falling `k(T)` would end in stays a number.
+        // Kept positive where a falling `k(T)` would end.
         let conductivity = |t: f64| strand.conductivity_w_mk.at(t).max(1e-9);
         let last = rings - 1;
         let outer_k = t[last];
