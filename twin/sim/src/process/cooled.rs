@@ -1,5 +1,8 @@
 //! What a run of [`super::radial`] leaves: temperatures against age, between the steps as well.
 
+#[cfg(test)]
+mod tests;
+
 /// A step's end, as the solver hands it over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Node {

@@ -55,8 +55,10 @@ impl Tait {
     ///
     /// `v = (b1 + b2 T̄) [1 − C ln(1 + P/B)]`, `B = b3 exp(−b4 T̄)`, `T̄ = T − b5`, `C = 0.0894`; melt above
     /// `b5 + b6 P`, solid at and below. Temperature in K, pressure over the atmosphere in Pa. Fits hold to
-    /// 0.2 % between 20 °C and the melt's usual temperatures, 0 to 200 MPa, slow cooling. Not a number
-    /// where the pressure pulls apart. Case ABS-TAIT within 0.002; process-physics.md section 2.6.
+    /// 0.2 % between 20 °C and the melt's usual temperatures, slow cooling (from memory). Where the branches
+    /// meet under pressure a fit may jump: that of ABS in the reference makes the solid 1.1 % lighter than
+    /// the melt at 100 MPa, though even at none; a strand in air knows no pressure. Not a number where
+    /// the pressure pulls apart. Case ABS-TAIT within 0.002; process-physics.md section 2.6.
     pub fn specific_volume_m3_kg(&self, temperature_k: f64, pressure_pa: f64) -> f64 {
         self.volume_and_slope(temperature_k, pressure_pa).0
     }

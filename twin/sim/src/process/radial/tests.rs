@@ -1,16 +1,17 @@
 //! Radial cooling against the Bessel series, closed forms, brute force and itself.
 
+use std::f64::consts::PI;
+
 use proptest::prelude::*;
 
 use super::*;
 use crate::process::air_side::AirSide;
 use crate::process::tests::{close, within};
-use crate::process::tests_heat::RADIAL;
 
 /// No heat made.
-const NO_SOURCE: fn(f64) -> f64 = |_| 0.0;
+pub(super) const NO_SOURCE: fn(f64) -> f64 = |_| 0.0;
 
-fn plain(diameter_m: f64, density_kg_m3: f64, k: f64, cp: f64) -> RoundStrand {
+pub(super) fn plain(diameter_m: f64, density_kg_m3: f64, k: f64, cp: f64) -> RoundStrand {
     RoundStrand {
         diameter_m,
         density_kg_m3,
@@ -29,74 +30,8 @@ fn pla(diameter_m: f64) -> RoundStrand {
     }
 }
 
-fn span(until_s: f64, tolerance_k: f64) -> Span {
+pub(super) fn span(until_s: f64, tolerance_k: f64) -> Span {
     Span { from_s: 0.0, until_s, stop_k: 0.0, tolerance_k, longest_step_s: f64::INFINITY }
-}
-
-/// Times to flow and glass, mean and core, of a COOL-RADIAL case with twelve rings.
-fn cool_radial(id: &str) {
-    let (_, [rho, cp, k, start, flow, glass, d_mm, h], want) =
-        RADIAL.into_iter().find(|case| case.0 == id).expect("a case of that id");
-    let strand = plain(d_mm * 1e-3, rho, k, cp);
-    let around = Surroundings { air_k: 295.15, h_w_m2k: &|_, _| h, source_w_m3: &NO_SOURCE };
-    let got = cool(&strand, &uniform_profile_k(start + 273.15, 12), &around, &span(60.0, 0.1));
-    let (flow, glass) = (flow + 273.15, glass + 273.15);
-    within(got.time_to_s(flow), want[0], 0.02);
-    within(got.core_time_to_s(flow), want[1], 0.02);
-    within(got.time_to_s(glass), want[2], 0.02);
-    within(got.core_time_to_s(glass), want[3], 0.02);
-    let steps = got.ages_s.len();
-    assert!(steps < 130, "{steps}");
-}
-
-#[test]
-fn cool_radial_abs_1_27_100() {
-    cool_radial("ABS-1.27-100");
-}
-
-#[test]
-fn cool_radial_abs_3_200() {
-    cool_radial("ABS-3-200");
-}
-
-#[test]
-fn cool_radial_pla_1_27_200() {
-    cool_radial("PLA-1.27-200");
-}
-
-#[test]
-fn cool_radial_pla_3_100() {
-    cool_radial("PLA-3-100");
-}
-
-#[test]
-fn cool_radial_pla_3_400() {
-    cool_radial("PLA-3-400");
-}
-
-#[test]
-fn second_order_in_space() {
-    // Against the series, so fine in time that only the rings count: PLA-3-400, Bi 3.3.
-    let strand = plain(3e-3, 1240.0, 0.18, 1800.0);
-    let around = Surroundings { air_k: 295.15, h_w_m2k: &|_, _| 400.0, source_w_m3: &NO_SOURCE };
-    let error_s = |rings: usize| {
-        let start = uniform_profile_k(483.15, rings);
-        let got = cool(&strand, &start, &around, &span(7.0, 2e-3));
-        [got.time_to_s(428.15), got.core_time_to_s(428.15)].map(f64::abs)
-    };
-    let per_fourier = 0.0015_f64.powi(2) * 1240.0 * 1800.0 / 0.18;
-    let exact = [false, true].map(|centre| {
-        per_fourier
-            * crate::process::reference::fourier_to(400.0 * 0.0015 / 0.18, 133.0 / 188.0, centre)
-    });
-    let errors = [6, 12, 24].map(|rings| {
-        let got = error_s(rings);
-        [got[0] - exact[0], got[1] - exact[1]]
-    });
-    for i in [0, 1] {
-        let orders = [0, 1].map(|j| (errors[j][i] / errors[j + 1][i]).log2());
-        assert!(orders.iter().all(|o| (1.7..2.6).contains(o)), "{orders:?} of {errors:?}");
-    }
 }
 
 #[test]
@@ -162,22 +97,17 @@ fn steady_heat_of_cure_is_a_parabola() {
         within(got.core_at_k(2000.0), surface + q * radius * radius / (4.0 * k), 1e-6);
         within(got.mean_at_k(2000.0), surface + q * radius * radius / (8.0 * k), 1e-6);
     }
+    // A surface held at the air's temperature.
+    let around = Surroundings { h_w_m2k: &|_, _| f64::INFINITY, ..around };
+    let strand = plain(2.0 * radius, 1130.0, k, 1800.0);
+    let got = cool(&strand, &uniform_profile_k(295.15, 12), &around, &span(2000.0, 0.01));
+    within(got.surface_at_k(2000.0), 295.15, 1e-9);
+    within(got.core_at_k(2000.0), 295.15 + q * radius * radius / (4.0 * k), 1e-6);
     // Kept in: the mean rises by q a / ρ cp.
     let around = Surroundings { air_k: 295.15, h_w_m2k: &|_, _| 0.0, source_w_m3: &|_| q };
-    let strand = plain(2.0 * radius, 1130.0, k, 1800.0);
     let got = cool(&strand, &uniform_profile_k(295.15, 12), &around, &span(10.0, 0.1));
     close(got.mean_at_k(10.0) - 295.15, q * 10.0 / (1130.0 * 1800.0), 1e-10);
     assert!(got.time_to_s(290.0).is_infinite());
-}
-
-#[test]
-fn one_ring_that_conducts_well_is_the_lumped_law() {
-    // COOL-LUMP
-    let strand = plain(0.00127, 1040.0, 1e6, 1950.0);
-    let around = Surroundings { air_k: 295.15, h_w_m2k: &|_, _| 100.0, source_w_m3: &NO_SOURCE };
-    let got = cool(&strand, &uniform_profile_k(513.15, 1), &around, &span(20.0, 0.01));
-    close(got.time_to_s(378.15), 6.217_752_470_251_151, 1e-4);
-    close(got.core_time_to_s(378.15), 6.217_752_470_251_151, 1e-4);
 }
 
 #[test]
@@ -253,40 +183,6 @@ fn pla_in_a_jet_against_brute_force() {
             t[j] += step_s * (through[j] - through[j + 1]) / capacity;
         }
     }
-}
-
-#[test]
-fn what_is_between_the_steps() {
-    let strand = plain(3e-3, 1240.0, 0.18, 1800.0);
-    let around = Surroundings { air_k: 295.15, h_w_m2k: &|_, _| 200.0, source_w_m3: &NO_SOURCE };
-    let got = cool(&strand, &uniform_profile_k(483.15, 12), &around, &span(25.0, 0.1));
-    let fine = cool(&strand, &uniform_profile_k(483.15, 12), &around, &span(25.0, 1e-3));
-    let mut sum = 0.0;
-    for i in 0..50_000 {
-        let age_s = 0.3 + 40.0 * (f64::from(i) + 0.5) / 50_000.0;
-        sum += (got.mean_at_k(age_s) - 295.15) * 40.0 / 50_000.0;
-        if age_s < 25.0 && i % 50 == 0 {
-            within(got.mean_at_k(age_s), fine.mean_at_k(age_s), 0.05);
-            within(got.core_at_k(age_s), fine.core_at_k(age_s), 0.1);
-            let (surface, mean, core) =
-                (got.surface_at_k(age_s), got.mean_at_k(age_s), got.core_at_k(age_s));
-            assert!(surface < mean && mean < core, "{surface} {mean} {core} at {age_s}");
-        }
-    }
-    close(got.excess_k_s(0.3, 40.3), sum, 1e-8);
-    close(got.excess_k_s(2.0, 9.0) + got.excess_k_s(9.0, 31.0), got.excess_k_s(2.0, 31.0), 1e-12);
-    for target_k in [483.0, 470.0, 400.0, 330.0, 305.0, 296.0] {
-        close(got.mean_at_k(got.time_to_s(target_k)), target_k, 1e-9);
-        close(got.core_at_k(got.core_time_to_s(target_k)), target_k, 1e-9);
-    }
-    assert!(got.time_to_s(500.0) == 0.0 && got.time_to_s(295.0).is_infinite());
-    // A constant h: the tail after the last step is the true one, and its integral is finite.
-    let cut = Span { stop_k: 380.0, ..span(1e4, 0.01) };
-    let short = cool(&strand, &uniform_profile_k(483.15, 12), &around, &cut);
-    let end_s = *short.ages_s.last().expect("an end");
-    assert!(end_s < 25.0 && short.profile_k.iter().all(|&t| t <= 380.0));
-    close(short.mean_at_k(24.0) - 295.15, fine.mean_at_k(24.0) - 295.15, 2e-3);
-    assert!(short.excess_k_s(0.0, f64::INFINITY).is_finite());
 }
 
 proptest! {
