@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 20] = [
+const MAY_USE: [(&str, &[&str]); 21] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
@@ -17,6 +17,7 @@ const MAY_USE: [(&str, &[&str]); 20] = [
     ("dynamics", &["kinematics", "pose"]),
     ("process", &["interval"]),
     ("structure", &["pose"]),
+    ("validation", &["process", "interval"]),
     ("finding", &["interval", "pose"]),
     ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),
     ("toolpath", &["cell", "parry", "pose"]),

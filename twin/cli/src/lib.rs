@@ -20,6 +20,7 @@ mod schema;
 mod screen;
 #[cfg(test)]
 mod tests;
+mod validate;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -61,6 +62,7 @@ enum Command {
     Inspect(inspect::Inspect),
     Explain(explain::Explain),
     Schema(schema::Schema),
+    Validate(validate::Validate),
     Doctor(doctor::Doctor),
 }
 
@@ -111,6 +113,7 @@ impl Command {
             Self::Inspect(command) => command.run(screen),
             Self::Explain(command) => command.run(screen),
             Self::Schema(command) => command.run(screen),
+            Self::Validate(command) => command.run(screen),
             Self::Doctor(command) => command.run(screen),
         }
     }

@@ -2,6 +2,7 @@
 
 mod jobs;
 mod robots;
+mod validate;
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -62,7 +63,7 @@ fn help_and_version_are_answers() {
         (done.code, done.out.trim()),
         (FEASIBLE, concat!("twin ", env!("CARGO_PKG_VERSION")))
     );
-    for command in ["check", "plan", "inspect", "explain", "schema", "doctor"] {
+    for command in ["check", "plan", "inspect", "explain", "schema", "validate", "doctor"] {
         let done = twin([command, "--help"]);
         assert_eq!(done.code, FEASIBLE);
         assert!(done.out.contains("Usage: twin"), "{command}: {}", done.out);

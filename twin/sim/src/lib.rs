@@ -26,3 +26,4 @@ pub mod structure;
 mod test_job;
 pub mod timing;
 pub mod toolpath;
+pub mod validation;

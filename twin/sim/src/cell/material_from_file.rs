@@ -9,7 +9,7 @@ use crate::process::{
 };
 
 /// The material of a file.
-pub(super) fn material(file: &MaterialFile) -> Material {
+pub fn material(file: &MaterialFile) -> Material {
     Material {
         name: file.name.clone(),
         density_kg_m3: interval(&file.density_kg_m3),
