@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 20] = [
+const MAY_USE: [(&str, &[&str]); 21] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
@@ -16,6 +16,7 @@ const MAY_USE: [(&str, &[&str]); 20] = [
     ("timing", &["kinematics", "pose"]),
     ("dynamics", &["kinematics", "pose"]),
     ("process", &["interval"]),
+    ("calibration", &["process", "interval"]),
     ("structure", &["pose"]),
     ("finding", &["interval", "pose"]),
     ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),

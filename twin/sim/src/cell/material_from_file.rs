@@ -5,8 +5,8 @@ use slam::material_file::{MaterialFile, Number, SettingFile};
 use crate::interval::Interval;
 use crate::process::{CrossWlf, Material, Photopolymer, Setting, Thermoplastic, TwoPart};
 
-/// The material of a file.
-pub(super) fn material(file: &MaterialFile) -> Material {
+/// The material of a file, in SI.
+pub fn material(file: &MaterialFile) -> Material {
     Material {
         name: file.name.clone(),
         density_kg_m3: interval(&file.density_kg_m3),

@@ -17,4 +17,5 @@ pub use job::{
 };
 pub use machine::{Bed, Cell, Extruder, Mode, Obstacle, Robot, RobotLink, Tool, ToolPart};
 pub use machine_from_files::machine;
+pub use material_from_file::material;
 pub use resolve::{Parts, resolve};
