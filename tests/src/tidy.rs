@@ -16,6 +16,7 @@ const MAY_USE: [(&str, &[&str]); 21] = [
     ("timing", &["kinematics", "pose"]),
     ("dynamics", &["kinematics", "pose"]),
     ("process", &["interval"]),
+    ("calibration", &["process", "interval"]),
     ("structure", &["pose"]),
     ("validation", &["process", "interval"]),
     ("finding", &["interval", "pose"]),

@@ -4,6 +4,7 @@
 //! finds robots, cells, tools and materials, `load` turns a job's file into a `sim` job, `files`
 //! reads within limits and writes whole files or none.
 
+mod calibrate;
 mod check;
 mod doctor;
 mod explain;
@@ -59,6 +60,7 @@ enum Command {
     Check(check::Check),
     Plan(plan::Plan),
     Map(map::Map),
+    Calibrate(calibrate::Calibrate),
     Inspect(inspect::Inspect),
     Explain(explain::Explain),
     Schema(schema::Schema),
@@ -110,6 +112,7 @@ impl Command {
             Self::Check(command) => command.run(screen),
             Self::Plan(command) => command.run(screen),
             Self::Map(command) => command.run(screen),
+            Self::Calibrate(command) => command.run(screen),
             Self::Inspect(command) => command.run(screen),
             Self::Explain(command) => command.run(screen),
             Self::Schema(command) => command.run(screen),

@@ -200,7 +200,7 @@ fn unknown(kind: Kind, name: &str, naming: &Naming<'_>, library: &Library) -> Re
 }
 
 /// Place of the value of a top-level `key = …` line.
-fn line_of(source: &Source, key: &str) -> Span {
+pub(crate) fn line_of(source: &Source, key: &str) -> Span {
     let mut start = 0;
     for line in source.text.split_inclusive('\n') {
         let value = line.trim_start().strip_prefix(key).map(str::trim_start);

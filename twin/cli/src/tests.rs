@@ -1,5 +1,6 @@
 //! The program without a process: command lines in, text and exit code out.
 
+mod calibrate;
 mod jobs;
 mod robots;
 mod validate;
@@ -63,7 +64,11 @@ fn help_and_version_are_answers() {
         (done.code, done.out.trim()),
         (FEASIBLE, concat!("twin ", env!("CARGO_PKG_VERSION")))
     );
+<<<<<<< HEAD
     for command in ["check", "plan", "inspect", "explain", "schema", "validate", "doctor"] {
+=======
+    for command in ["check", "plan", "calibrate", "inspect", "explain", "schema", "doctor"] {
+>>>>>>> h4-calib
         let done = twin([command, "--help"]);
         assert_eq!(done.code, FEASIBLE);
         assert!(done.out.contains("Usage: twin"), "{command}: {}", done.out);

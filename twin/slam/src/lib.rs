@@ -4,6 +4,7 @@
 //! |-----------------|-------------------------------|----------------|
 //! | `job.slam`      | [`document::Document`]        | `job`          |
 //! | cell, tool, robot, material `.toml` | [`cell_file`], [`tool_file`], [`robot_file`], [`material_file`] | same |
+//! | `MEASURED.toml` | [`measured_file::MeasuredFile`] | `measured_file` |
 //! | `.urdf`         | [`urdf::RobotDescription`]    | `urdf`         |
 //! | `.stl`, `.obj`  | [`mesh::Mesh`]                | `mesh`         |
 //!
@@ -15,6 +16,7 @@ pub mod diagnostic;
 pub mod document;
 pub mod job;
 pub mod material_file;
+pub mod measured_file;
 pub mod mesh;
 pub mod robot_file;
 pub mod schema;

@@ -5,6 +5,12 @@ use serde::Deserialize;
 use crate::cell_file::checks::{Checks, Place, Rule, parse_checked};
 use crate::{Diagnostic, Source};
 
+mod rewrite;
+#[cfg(test)]
+mod tests;
+
+pub use rewrite::{Change, rewritten};
+
 /// 0 K, °C.
 const ABSOLUTE_ZERO_C: f64 = -273.15;
 
