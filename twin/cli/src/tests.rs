@@ -64,11 +64,9 @@ fn help_and_version_are_answers() {
         (done.code, done.out.trim()),
         (FEASIBLE, concat!("twin ", env!("CARGO_PKG_VERSION")))
     );
-<<<<<<< HEAD
-    for command in ["check", "plan", "inspect", "explain", "schema", "validate", "doctor"] {
-=======
-    for command in ["check", "plan", "calibrate", "inspect", "explain", "schema", "doctor"] {
->>>>>>> h4-calib
+    let commands =
+        ["check", "plan", "calibrate", "inspect", "explain", "schema", "validate", "doctor"];
+    for command in commands {
         let done = twin([command, "--help"]);
         assert_eq!(done.code, FEASIBLE);
         assert!(done.out.contains("Usage: twin"), "{command}: {}", done.out);

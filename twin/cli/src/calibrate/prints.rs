@@ -3,7 +3,7 @@
 use sim::calibration::{Measured, Print};
 use sim::cell::Cell;
 use sim::process::bead::flow_m3_s;
-use sim::process::{Air, Ends, StrandInput};
+use sim::process::{Air, Ends, Fidelity, StrandInput};
 use slam::measured_file::MeasuredFile;
 
 /// The prints, kind by kind in the order of the file.
@@ -48,6 +48,7 @@ fn strand(
     let speed_m_s = speed_mm_s.map_or(cell.extruder.speed_m_s, |speed| speed / 1e3);
     let diameter_m = diameter_mm.map_or(cell.extruder.diameter_m, |diameter| diameter / 1e3);
     StrandInput {
+        fidelity: Fidelity::ClosedForms,
         length_m: length_mm / 1e3,
         span_m: length_mm / 1e3,
         speed_m_s,
@@ -59,6 +60,7 @@ fn strand(
         ends: Ends::BothHeld,
         dwell_s: 0.0,
         air: Air {
+            blown: None,
             temperature_k: file.air.air_c + 273.15,
             room_m_s: file.air.air_m_s,
             jet: cell.tool.air_jet,

@@ -6,7 +6,7 @@ use super::*;
 use crate::interval::Interval;
 use crate::process::bead::flow_m3_s;
 use crate::process::{
-    Air, CrossWlf, Ends, Jet, LightRing, Material, Photopolymer, Setting, StrandInput,
+    Air, CrossWlf, Ends, Fidelity, Jet, LightRing, Material, Photopolymer, Setting, StrandInput,
     Thermoplastic, TwoPart,
 };
 
@@ -18,6 +18,11 @@ fn range(nominal: f64, low: f64, high: f64) -> Interval {
 pub(super) fn pla() -> Known {
     let exact = Interval::exact;
     let setting = Setting::Thermoplastic(Thermoplastic {
+        heat: None,
+        tait: None,
+        weld: None,
+        surface_tension_n_m: None,
+        melt_life_s: None,
         extrusion_k: exact(483.15),
         melt_density_kg_m3: range(1090.0, 1060.0, 1130.0),
         glass_k: range(333.15, 328.15, 338.15),
@@ -51,6 +56,12 @@ pub(super) fn pla() -> Known {
 pub(super) fn resin() -> Known {
     let exact = Interval::exact;
     let setting = Setting::Photopolymer(Photopolymer {
+        kinetics: None,
+        reaction_heat_j_kg: None,
+        exposure_activation_j_mol: None,
+        tacky_skin_m: None,
+        flow: None,
+        surface_tension_n_m: None,
         gel_density_kg_m3: exact(1130.0),
         base_viscosity_pa_s: range(0.3, 0.06, 1.5),
         yield_stress_pa: range(60.0, 15.0, 250.0),
@@ -76,6 +87,7 @@ pub(super) fn resin() -> Known {
 /// A level strand of 1.1 mm from a 1.2 mm nozzle, drawn for every swell of the range; jet of 10 m/s.
 pub(super) fn strand(length_m: f64, speed_m_s: f64) -> StrandInput {
     StrandInput {
+        fidelity: Fidelity::ClosedForms,
         length_m,
         span_m: length_m,
         speed_m_s,
@@ -89,6 +101,7 @@ pub(super) fn strand(length_m: f64, speed_m_s: f64) -> StrandInput {
             temperature_k: 296.15,
             room_m_s: 0.0,
             jet: Some(Jet { speed_m_s: range(10.0, 5.0, 20.0), reach_m: 0.03 }),
+            blown: None,
         },
         light: None,
     }
@@ -354,6 +367,7 @@ fn taut_bridges_bound_slack_from_above() {
 #[test]
 fn two_part_material_has_a_viscosity_of_its_own() {
     let setting = Setting::TwoPart(TwoPart {
+        pot_life_s: None,
         set_time_s: range(0.5, 0.3, 1.0),
         viscosity_pa_s: range(50.0, 20.0, 200.0),
         linear_shrinkage: range(0.01, 0.002, 0.03),

@@ -8,11 +8,7 @@ use crate::process::{
     Thermoplastic, TwoPart, WeldLaw,
 };
 
-<<<<<<< HEAD
 /// The material of a file.
-=======
-/// The material of a file, in SI.
->>>>>>> h4-calib
 pub fn material(file: &MaterialFile) -> Material {
     Material {
         name: file.name.clone(),

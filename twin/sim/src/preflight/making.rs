@@ -16,7 +16,7 @@ use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
 use crate::process::sag::stretched_sag_m;
 use crate::process::soft_rod::{self, Sagged};
-use crate::process::{self, Air, Course, Ends, Fidelity, Heats, StrandInput, StrandOutcome};
+use crate::process::{self, Air, Blown, Course, Ends, Fidelity, Heats, StrandInput, StrandOutcome};
 use crate::toolpath::Path;
 
 /// What became of one strand.
@@ -176,7 +176,7 @@ fn make_one(
             temperature_k: job.air.temperature_k,
             room_m_s: job.air.speed_m_s,
             jet: tool.air_jet,
-            profile: jets(tool, &course),
+            blown: jets(tool, &course),
         },
         light: tool.light_ring,
     };
@@ -250,7 +250,7 @@ fn feed(job: &Job, path: &Path, course: &Course) -> Fed {
 const JET_REACH_M: f64 = 0.08;
 
 /// Air nozzles told one by one: their air across the strand as it leaves the nozzle half way along.
-fn jets(tool: &Tool, course: &Course) -> Option<(JetProfile, Interval)> {
+fn jets(tool: &Tool, course: &Course) -> Option<Blown> {
     let first = tool.air_nozzles.first()?;
     let nozzles: Vec<jet::AirNozzle> = tool
         .air_nozzles
@@ -264,11 +264,12 @@ fn jets(tool: &Tool, course: &Course) -> Option<(JetProfile, Interval)> {
         .collect();
     let middle = &course.stations[course.stations.len() / 2];
     let leaving = middle.part_from_tool.inverse_transform_vector(&-middle.tangent);
-    let profile = JetProfile::new(&nozzles, &Point::origin(), &leaving, JET_REACH_M, 161);
+    let profile = JetProfile::new(&nozzles, &Point::origin(), &leaving, JET_REACH_M, 160);
     let exit = first.exit_m_s;
     let share =
         if exit.nominal > 0.0 { exit.map(|v| v / exit.nominal) } else { Interval::exact(1.0) };
-    Some((profile, share))
+    let place = |k: usize| profile.at_distance_m_s(JET_REACH_M * k as f64 / 39.0);
+    Some(Blown { reach_m: JET_REACH_M, speeds_m_s: std::array::from_fn(place), share })
 }
 
 /// Mean asked speed over the length, and the flow told, of what is extruded.

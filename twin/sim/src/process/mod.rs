@@ -61,7 +61,7 @@ pub use material::{
     TwoPart, WeldLaw,
 };
 pub use strand::{
-    Air, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate, simulate_with,
+    Air, Blown, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate, simulate_with,
 };
 pub use viscosity::CrossWlf;
 

@@ -8,7 +8,6 @@ use super::cure::{
 };
 use super::heat::modulus_through_glass_pa;
 use super::history::{Corner, light_set_s};
-use super::jet::JetProfile;
 use super::light::LightRing;
 use super::material::{Material, Photopolymer, Setting};
 use super::sag::{SetBeam, slack_sag_m};
@@ -26,7 +25,7 @@ pub enum Fidelity {
 }
 
 /// A strand as it is printed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrandInput {
     /// How much is computed.
     pub fidelity: Fidelity,
@@ -73,7 +72,7 @@ impl StrandInput {
 }
 
 /// The air around a strand.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
     /// Its temperature, K.
     pub temperature_k: f64,
@@ -81,27 +80,25 @@ pub struct Air {
     pub room_m_s: f64,
     /// The jet that travels with the nozzle.
     pub jet: Option<Jet>,
-    /// Jets told one by one, at their nominal speed, with their speeds' range over that.
-    pub profile: Option<(JetProfile, Interval)>,
+    /// Jets told one by one.
+    pub blown: Option<Blown>,
 }
 
 impl Air {
     /// Length behind the nozzle that jets reach, m; zero where there are none.
     pub fn jet_reach_m(&self) -> f64 {
-        match (&self.jet, &self.profile) {
+        match (&self.jet, &self.blown) {
             (Some(jet), _) => jet.reach_m,
-            (None, Some((profile, _))) => profile.reach_m(),
+            (None, Some(blown)) => blown.reach_m,
             (None, None) => 0.0,
         }
     }
 
     /// Speed of the air across the strand at a distance behind the nozzle, m/s.
     pub fn speed_m_s(&self, behind_m: f64, corner: Corner) -> f64 {
-        let jet_m_s = match (&self.jet, &self.profile) {
+        let jet_m_s = match (&self.jet, &self.blown) {
             (Some(jet), _) if behind_m <= jet.reach_m => corner.helpful(jet.speed_m_s),
-            (None, Some((profile, share))) => {
-                profile.at_distance_m_s(behind_m) * corner.helpful(*share)
-            }
+            (None, Some(blown)) => blown.at_m_s(behind_m) * corner.helpful(blown.share),
             _ => 0.0,
         };
         jet_m_s.max(self.room_m_s)
@@ -113,6 +110,31 @@ impl Air {
         let step_m = self.jet_reach_m() / f64::from(PLACES);
         let speed = |k: u32| self.speed_m_s(step_m * (f64::from(k) + 0.5), corner);
         (0..PLACES).map(speed).sum::<f64>() / f64::from(PLACES)
+    }
+}
+
+/// Air speed across a strand behind the nozzle, of jets told one by one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blown {
+    /// Length behind the nozzle to which it is told, m.
+    pub reach_m: f64,
+    /// Speed at even places from the nozzle to there, m/s, nominal.
+    pub speeds_m_s: [f64; 40],
+    /// What the speeds may be over that.
+    pub share: Interval,
+}
+
+impl Blown {
+    /// Nominal speed at a distance behind the nozzle, m/s; nothing beyond the reach.
+    pub fn at_m_s(&self, behind_m: f64) -> f64 {
+        let last = self.speeds_m_s.len() - 1;
+        let place = behind_m / self.reach_m * last as f64;
+        if !(place >= 0.0 && place <= last as f64) {
+            return 0.0;
+        }
+        let k = (place as usize).min(last - 1);
+        let share = place - k as f64;
+        self.speeds_m_s[k] + (self.speeds_m_s[k + 1] - self.speeds_m_s[k]) * share
     }
 }
 

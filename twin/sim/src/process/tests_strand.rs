@@ -120,7 +120,7 @@ fn strand() -> StrandInput {
             temperature_k: 295.15,
             room_m_s: 0.1,
             jet: Some(Jet { speed_m_s: range(10.0, 5.0, 20.0), reach_m: 0.03 }),
-            profile: None,
+            blown: None,
         },
         light: None,
     }
@@ -221,7 +221,7 @@ fn outcomes_are_ordered_intervals() {
             } else {
                 strand()
             };
-            let out = simulate(&StrandInput { ends, ..base.clone() }, &material);
+            let out = simulate(&StrandInput { ends, ..base }, &material);
             for interval in [
                 out.bead_diameter_m,
                 out.draw_ratio,
@@ -324,13 +324,13 @@ fn no_input_panics() {
         for value in odd {
             for ends in [Ends::BothHeld, Ends::StartHeld, Ends::Resting] {
                 let base = StrandInput { ends, ..gel_strand() };
-                let air = Air { temperature_k: value, ..base.air.clone() };
+                let air = Air { temperature_k: value, ..base.air };
                 for input in [
-                    StrandInput { speed_m_s: value, ..base.clone() },
-                    StrandInput { flow_m3_s: value, ..base.clone() },
-                    StrandInput { length_m: value, span_m: value, ..base.clone() },
-                    StrandInput { gravity_across_m_s2: value, dwell_s: value, ..base.clone() },
-                    StrandInput { air, ..base.clone() },
+                    StrandInput { speed_m_s: value, ..base },
+                    StrandInput { flow_m3_s: value, ..base },
+                    StrandInput { length_m: value, span_m: value, ..base },
+                    StrandInput { gravity_across_m_s2: value, dwell_s: value, ..base },
+                    StrandInput { air, ..base },
                 ] {
                     let _ = simulate(&input, &material);
                     let history = History::new(&input, &material);

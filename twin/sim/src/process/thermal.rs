@@ -1,10 +1,8 @@
 //! Temperature of a strand against its age: by one rate, or through its radius.
 
+use super::air_side::AirSide;
 use super::cooled::Cooled;
-use super::heat::{
-    Cooling, cooling_rate_per_s, effective_h_w_m2k, forced_h_w_m2k, natural_h_w_m2k,
-    radiation_h_w_m2k, total_h_w_m2k,
-};
+use super::heat::{Cooling, cooling_rate_per_s, effective_h_w_m2k, total_h_w_m2k};
 use super::history::Corner;
 use super::material::{Material, Thermoplastic};
 use super::radial::{self, Linear, RoundStrand, Span, Surroundings, uniform_profile_k};
@@ -152,13 +150,11 @@ fn cooled(
         conductivity_w_mk: linear(plastic.heat.map(|law| law.k), material.k_w_mk.nominal, 1.0),
         cp_j_kgk: linear(plastic.heat.map(|law| law.cp), material.cp_j_kgk.nominal, cp_share),
     };
-    let emissivity = material.emissivity.nominal;
+    let hottest_k = plastic.extrusion_k.nominal;
+    let side = AirSide::new(diameter_m, air_k, hottest_k, material.emissivity.nominal);
     let h_w_m2k = |surface_k: f64, age_s: f64| {
         let air_m_s = input.air.speed_m_s(speed_m_s * age_s, corner);
-        let natural = natural_h_w_m2k(diameter_m, surface_k, air_k);
-        let forced =
-            if air_m_s > 0.0 { forced_h_w_m2k(diameter_m, surface_k, air_k, air_m_s) } else { 0.0 };
-        spread(corner) * (natural.max(forced) + radiation_h_w_m2k(emissivity, surface_k, air_k))
+        spread(corner) * side.h_w_m2k(surface_k, air_m_s)
     };
     let around = Surroundings { air_k, h_w_m2k: &h_w_m2k, source_w_m3: &|_| 0.0 };
     let reach_s = input.air.jet_reach_m() / speed_m_s;

@@ -4,8 +4,9 @@ use super::strand::{melt, strand};
 use super::{Case, Check, Kind, Library};
 use crate::interval::Interval;
 use crate::process::Material;
-use crate::process::history::{Corner, cooling};
+use crate::process::history::Corner;
 use crate::process::sag::Fluidity;
+use crate::process::thermal::cooling;
 
 pub(super) fn cases(library: &Library<'_>) -> Vec<Case> {
     vec![seppala_migler(library.abs), flow_stop_pla(library.pla)]

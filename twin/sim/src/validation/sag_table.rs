@@ -6,6 +6,7 @@ use crate::interval::Interval;
 use crate::process::heat::{Cooling, cooling_rate_per_s, effective_h_w_m2k};
 use crate::process::sag::SoftBeam;
 use crate::process::soft::melt_fluidity;
+use crate::process::thermal::Heat;
 use crate::process::{Material, Thermoplastic};
 
 pub(super) fn cases(library: &Library<'_>) -> Vec<Case> {
@@ -23,13 +24,13 @@ fn table_mm(
     let density_kg_m3 = plastic.melt_density_kg_m3.nominal;
     let effective = effective_h_w_m2k(h, d_m, material.k_w_mk.nominal);
     let rate = cooling_rate_per_s(effective, density_kg_m3, material.cp_j_kgk.nominal, d_m);
-    let cooling = Cooling {
+    let cooling = Heat::Lumped(Cooling {
         start_k: plastic.extrusion_k.nominal,
         air_k: ROOM_K,
         jet_rate_per_s: rate,
         jet_until_s: 0.0,
         room_rate_per_s: rate,
-    };
+    });
     let beam = SoftBeam {
         diameter_m: d_m,
         density_kg_m3,

@@ -3,7 +3,9 @@
 use crate::interval::Interval;
 use crate::process::bead::flow_m3_s;
 use crate::process::soft::nozzle_sag;
-use crate::process::{Air, Ends, Jet, Material, Photopolymer, Setting, StrandInput, Thermoplastic};
+use crate::process::{
+    Air, Ends, Fidelity, Heats, Jet, Material, Photopolymer, Setting, StrandInput, Thermoplastic,
+};
 
 /// Standard gravity, m/s².
 pub(super) const GRAVITY_M_S2: f64 = 9.806_65;
@@ -18,6 +20,7 @@ const EVERYWHERE_M: f64 = 10.0;
 pub(super) fn strand(diameter_m: f64, speed_m_s: f64, span_m: f64, jet_m_s: f64) -> StrandInput {
     let jet = Jet { speed_m_s: Interval::exact(jet_m_s), reach_m: EVERYWHERE_M };
     StrandInput {
+        fidelity: Fidelity::ClosedForms,
         length_m: span_m,
         span_m,
         speed_m_s,
@@ -27,14 +30,19 @@ pub(super) fn strand(diameter_m: f64, speed_m_s: f64, span_m: f64, jet_m_s: f64)
         gravity_across_m_s2: GRAVITY_M_S2,
         ends: Ends::BothHeld,
         dwell_s: 0.0,
-        air: Air { temperature_k: ROOM_K, room_m_s: 0.0, jet: (jet_m_s > 0.0).then_some(jet) },
+        air: Air {
+            temperature_k: ROOM_K,
+            room_m_s: 0.0,
+            jet: (jet_m_s > 0.0).then_some(jet),
+            blown: None,
+        },
         light: None,
     }
 }
 
 /// Sag behind the nozzle, m.
 pub(super) fn sag_m(input: &StrandInput, material: &Material) -> Interval {
-    nozzle_sag(input, material).offset_m
+    nozzle_sag(input, material, &Heats::new(input, material)).offset_m
 }
 
 /// Fastest print at which a strand sags no more than half its diameter behind the nozzle, m/s.
