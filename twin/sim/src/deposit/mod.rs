@@ -30,6 +30,20 @@ pub struct Printed {
     pub done_s: f64,
 }
 
+impl Printed {
+    /// The planned point at an arc length.
+    pub fn planned_at(&self, at_m: f64) -> Point {
+        let k = self.at_m.partition_point(|&x| x < at_m).clamp(1, self.at_m.len() - 1);
+        let share = (at_m - self.at_m[k - 1]) / (self.at_m[k] - self.at_m[k - 1]);
+        self.as_planned[k - 1] + (self.as_planned[k] - self.as_planned[k - 1]) * share
+    }
+
+    /// Length of the strand, m.
+    pub fn length_m(&self) -> f64 {
+        self.at_m.last().copied().unwrap_or(0.0)
+    }
+}
+
 /// A straight piece of a printed strand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {

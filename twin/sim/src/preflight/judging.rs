@@ -1,11 +1,11 @@
 //! What became of a strand, held against its limits.
 
 use super::making::StrandResult;
+use super::rules;
 use crate::cell::Job;
 use crate::deposit::Printed;
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::interval::Interval;
-use crate::pose::Point;
 use crate::process::{Ends, Setting, StrandOutcome};
 
 struct Judge<'a> {
@@ -15,6 +15,7 @@ struct Judge<'a> {
 }
 
 pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, findings: &mut Findings) {
+    rules::judge(job, printed, result, findings);
     let this = Judge { job, printed, result };
     let (limits, outcome) = (&job.limits, &result.outcome);
     this.start(findings);
@@ -115,7 +116,7 @@ impl Judge<'_> {
         let length_m = self.printed.at_m[self.printed.at_m.len() - 1];
         let (at_m, point) = match code {
             Code::P304 => (length_m, self.printed.as_planned[self.printed.as_planned.len() - 1]),
-            _ => (length_m / 2.0, along(self.printed, length_m / 2.0)),
+            _ => (length_m / 2.0, self.printed.planned_at(length_m / 2.0)),
         };
         let site = Site::strand(self.result.strand, at_m).at(point);
         let time_s = Some(self.printed.born_s);
@@ -148,10 +149,4 @@ const ENDLESS_M: f64 = 1e3;
 fn finite(measured: Interval) -> Interval {
     let cap = |value: f64| if value.is_nan() { ENDLESS_M } else { value.min(ENDLESS_M) };
     Interval { nominal: cap(measured.nominal), low: cap(measured.low), high: cap(measured.high) }
-}
-
-fn along(printed: &Printed, at_m: f64) -> Point {
-    let k = printed.at_m.partition_point(|&x| x < at_m).clamp(1, printed.at_m.len() - 1);
-    let share = (at_m - printed.at_m[k - 1]) / (printed.at_m[k] - printed.at_m[k - 1]);
-    printed.as_planned[k - 1] + (printed.as_planned[k] - printed.as_planned[k - 1]) * share
 }

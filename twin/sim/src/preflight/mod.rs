@@ -2,15 +2,18 @@
 //!
 //! [`preflight`] reads top to bottom as the path of the data.
 
+mod bonding;
 mod clear;
 mod course;
 mod judging;
 mod making;
 mod program;
+mod rules;
 mod totals;
 mod tracking;
 mod view;
 
+pub use bonding::Bond;
 pub use clear::Cleared;
 pub use making::StrandResult;
 pub use program::Program;
@@ -75,6 +78,8 @@ pub struct Preflight {
     pub contacts: Vec<Contact>,
     /// What became of each strand, in printing order.
     pub strands: Vec<StrandResult>,
+    /// The weakest bond of each to earlier ones, in printing order.
+    pub bonds: Vec<Option<Bond>>,
     /// The frame by stages, landings and loads.
     pub growth: Growth,
     /// Smallest clearance measured.
@@ -134,6 +139,9 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let strands = making::make(&job, &moved, &motion, &mut findings);
     let deposit = making::as_printed(&job, &motion, &strands);
     let contacts = deposit::contacts(&deposit);
+    let bonds = bonding::bonds(&job, &deposit, &contacts, &strands);
+    bonding::judge(&job, &deposit, &strands, &bonds, &mut findings);
+    rules::idle(&job, &motion.printings, &mut findings);
 
     progress(Step::Structure);
     let laws: Vec<growth::StrandLaw> =
@@ -158,6 +166,7 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
         deposit,
         contacts,
         strands,
+        bonds,
         growth,
         nearest,
         program,

@@ -1,0 +1,155 @@
+//! How well a strand bonds to the earlier ones it touches.
+
+use super::making::StrandResult;
+use crate::cell::Job;
+use crate::deposit::{Contact, Deposit};
+use crate::finding::{Check, Code, Findings, Site, Words};
+use crate::interval::Interval;
+use crate::process::Setting;
+use crate::process::contact::{self, Touch, contact_area_m2, front_s, pressed_half_width_m};
+use crate::process::healing::{self, WeldTime};
+use crate::process::history::Corner;
+use crate::process::thermal::cooling;
+
+/// The weakest bond of a strand to an earlier one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bond {
+    /// Strength over that along the strand: the share of its section that touches, times how far it has healed.
+    pub share: Interval,
+    /// How far it has healed, or how many sites are left to react; 0 to 1.
+    pub degree: Interval,
+    /// Where on the strand, m.
+    pub at_m: f64,
+    /// The earlier strand, as index in the job.
+    pub other: usize,
+    /// Whether a law was used; else the material's bond fraction, measured on other prints.
+    pub by_law: bool,
+}
+
+/// A weld is followed until it has cooled, or this long, s.
+const LONGEST_S: f64 = 600.0;
+/// Samples of the contact's temperature.
+const SAMPLES: usize = 60;
+
+/// The weakest bond of each strand, in printing order; `contacts` of the deposit as printed.
+pub(super) fn bonds(
+    job: &Job,
+    deposit: &Deposit,
+    contacts: &[Contact],
+    results: &[StrandResult],
+) -> Vec<Option<Bond>> {
+    let mut bonds: Vec<Option<Bond>> = vec![None; results.len()];
+    for contact in contacts {
+        let (order, earlier) = (contact.orders[0], contact.orders[1]);
+        let bond = bond(job, deposit, contact, &results[order], &results[earlier]);
+        let weakest = &mut bonds[order];
+        if weakest.is_none_or(|known| bond.share.nominal < known.share.nominal) {
+            *weakest = Some(bond);
+        }
+    }
+    bonds
+}
+
+fn bond(
+    job: &Job,
+    deposit: &Deposit,
+    contact: &Contact,
+    result: &StrandResult,
+    earlier: &StrandResult,
+) -> Bond {
+    let touched_s =
+        deposit.strands[contact.orders[0]].born_s + result.course.time_at_s(contact.at_m[0]);
+    let laid_s =
+        deposit.strands[contact.orders[1]].born_s + earlier.course.time_at_s(contact.at_m[1]);
+    let age_s = (touched_s - laid_s).max(0.0);
+    let degree = degree(job, result, earlier, age_s, contact.at_m[0]);
+    let share =
+        degree.unwrap_or(job.material.bond_fraction).scaled(touching_share(contact, result));
+    Bond {
+        share,
+        degree: degree.unwrap_or(job.material.bond_fraction),
+        at_m: contact.at_m[0],
+        other: earlier.strand,
+        by_law: degree.is_some(),
+    }
+}
+
+/// Area of contact over the strand's section, at most one. Ends that meet within half a bead are merged: their whole
+/// section touches.
+fn touching_share(contact: &Contact, result: &StrandResult) -> f64 {
+    let diameter_m = result.outcome.bead_diameter_m.nominal;
+    let axes_m = contact.axes_m();
+    if axes_m <= 0.5 * diameter_m {
+        return 1.0;
+    }
+    let half_m = pressed_half_width_m(diameter_m, axes_m);
+    let area_m2 = contact_area_m2(diameter_m, half_m, Touch::Crossing(std::f64::consts::FRAC_PI_2));
+    let section_m2 = std::f64::consts::PI * diameter_m * diameter_m / 4.0;
+    (area_m2 / section_m2).min(1.0)
+}
+
+/// How far a weld heals, where the material's weld time is known. What resins bond to has cured through where the lights
+/// have passed, so they hold by the material's bond fraction.
+fn degree(
+    job: &Job,
+    result: &StrandResult,
+    earlier: &StrandResult,
+    age_s: f64,
+    at_m: f64,
+) -> Option<Interval> {
+    let material = &job.material;
+    let Setting::Thermoplastic(plastic) = &material.setting else { return None };
+    let weld = plastic.weld?;
+    let at_end = at_m > result.input.length_m - result.outcome.hot_diameter_m;
+    let waits_s = if at_end { result.input.dwell_s } else { 0.0 };
+    Some(Corner::interval(|corner| {
+        let laid = cooling(&earlier.input, material, plastic, corner);
+        let fresh = cooling(&result.input, material, plastic, corner);
+        // One material: the mean of the two.
+        let interface_k = 0.5 * (fresh.start_k + laid.temperature_k(age_s));
+        let heat_j_m3k = plastic.melt_density_kg_m3.nominal * material.cp_j_kgk.nominal;
+        let contact = contact::Contact {
+            interface_k,
+            air_k: fresh.air_k,
+            hold_s: front_s(result.outcome.hot_diameter_m, material.k_w_mk.nominal / heat_j_m3k)
+                + waits_s,
+            rate_per_s: fresh.jet_rate_per_s,
+        };
+        let glass_k = corner.harmful(plastic.glass_k);
+        let time = WeldTime { prefactor_s: weld.a_s, activation_j_mol: weld.q_j_mol };
+        let factor = corner.harmful(weld.factor);
+        let samples = contact.samples(glass_k, LONGEST_S, SAMPLES);
+        healing::healing_degree(&samples, glass_k, |kelvin| factor * time.at_s(kelvin))
+    }))
+}
+
+/// P310: the weakest bond of each strand.
+pub(super) fn judge(
+    job: &Job,
+    deposit: &Deposit,
+    results: &[StrandResult],
+    bonds: &[Option<Bond>],
+    findings: &mut Findings,
+) {
+    for (order, (result, bond)) in results.iter().zip(bonds).enumerate() {
+        let Some(bond) = bond else { continue };
+        let printed = &deposit.strands[order];
+        let site = Site::strand(result.strand, bond.at_m).at(printed.planned_at(bond.at_m));
+        let time_s = Some(printed.born_s + result.course.time_at_s(bond.at_m));
+        let limit = job.limits.bond_share;
+        let check =
+            Check { code: Code::P310, measured: bond.share, limit, warn_limit: None, site, time_s };
+        findings.check(check, || {
+            let (id, other) = (&job.strands[result.strand].id, &job.strands[bond.other].id);
+            let percent = bond.share.map(|share| share * 100.0);
+            Words {
+                message: format!(
+                    "strand `{id}` holds to `{other}` with {:.0} % of its own strength ({:.0} to {:.0} %)",
+                    percent.nominal, percent.low, percent.high
+                ),
+                hint: "wait at the node with the hot nozzle, print hotter, or press the beads nearer together"
+                    .to_owned(),
+            }
+        });
+    }
+}
