@@ -5,6 +5,7 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod corotational;
 pub mod cure;
 pub mod elastica;
 pub mod gel;
