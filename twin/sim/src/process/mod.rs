@@ -4,6 +4,7 @@
 //! section, the time since it left the nozzle. Reference: `process-physics.md`; what it calls not
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
+pub mod angle;
 pub mod bead;
 pub mod corotational;
 pub mod cure;
@@ -18,6 +19,7 @@ pub mod sag;
 pub mod shrinkage;
 pub mod soft;
 pub mod strand;
+pub mod stretch;
 pub mod viscosity;
 
 pub use history::History;

@@ -15,6 +15,8 @@ mod table;
 mod tests;
 #[cfg(test)]
 mod tests_cases;
+#[cfg(test)]
+mod tests_laws;
 
 pub use run::print_strand;
 pub use table::AgeTable;

@@ -44,7 +44,7 @@ pub(super) struct Room {
 }
 
 /// Iterations on what yields, and the share that flows at least (so that the redundants stay finite).
-const YIELD_ROUNDS: usize = 30;
+const YIELD_ROUNDS: usize = 40;
 const LEAST_FLOW: f64 = 1e-6;
 
 /// Steps the born sections of `pieces`, in time linear in their number; returns the redundants.
@@ -234,7 +234,7 @@ fn yields(strand: &Strand, sections: &[Section], shares: &mut [Share], now: &Red
         }
         if element.yield_moment_n_m > 0.0 || element.yield_force_n > 0.0 {
             let leaves = (1.0 - 1.0 / used).max(LEAST_FLOW);
-            changes |= (leaves - share.yields).abs() > 1e-4;
+            changes |= (leaves - share.yields).abs() > 1e-7;
             share.yields = 0.5 * (leaves + share.yields);
         }
     }
