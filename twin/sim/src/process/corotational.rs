@@ -124,8 +124,8 @@ pub fn hang_fine(rod: &HeavyRod, cuts: u32) -> Result<Hanging, HangError> {
     // 1/45, −20/45, 64/45: free of the terms in h² and h⁴
     let best = |c: f64, m: f64, f: f64| f + (19.0 * (f - m) - (m - c)) / 45.0;
     for (i, point) in fine.points_m.iter_mut().enumerate() {
-        for k in 0..2 {
-            point[k] = best(coarse.points_m[i][k], middle.points_m[i][k], point[k]);
+        for (k, x_m) in point.iter_mut().enumerate() {
+            *x_m = best(coarse.points_m[i][k], middle.points_m[i][k], *x_m);
         }
         fine.angles_rad[i] = best(coarse.angles_rad[i], middle.angles_rad[i], fine.angles_rad[i]);
     }

@@ -19,7 +19,8 @@ pub fn held_sag_m(bending_sag_m: f64, diameter_m: f64) -> f64 {
     let (product, half) = (27.0_f64 / 48.0, 27.0 / 32.0 * wanted);
     let u = (half + half.hypot(product * product.sqrt())).cbrt();
     let v = product / u;
-    diameter_m * wanted * (27.0 / 16.0) / (u * u + product + v * v)
+    let held_m = diameter_m * wanted * (27.0 / 16.0) / (u * u + product + v * v);
+    held_m.min(bending_sag_m) // where numbers run out
 }
 
 /// Steps of [`filament_sag`] in all.

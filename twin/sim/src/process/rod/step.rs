@@ -74,6 +74,10 @@ pub(super) fn step(
     room.shares.clear();
     for (i, section) in sections.iter_mut().enumerate() {
         let mut share = flow(strand, section, time, hold);
+        if share.flow == 0.0 && strand.ageing.modulus_pa.is_none() {
+            room.shares.push(share); // rigid: its load does nothing
+            continue;
+        }
         // the nozzle is farther on, or less far, when this section flows than in the middle of the step
         let (arm_m, on_m) = (middle_m - section.at_m, share.arm_m);
         share.load = room.middle[i];
@@ -111,8 +115,7 @@ pub(super) fn step(
         }
     }
     let end = end_of(&now);
-    finish(strand, sections, &room.shares, &now, &end);
-    let sums = now_sums(sections, time.to_m);
+    let sums = finish(strand, sections, &room.shares, &now, &end, time.to_m);
     settle(hold, sums.turn.constant, sums.drop.constant, time.to_m, place);
     if hold.far == super::End::Free {
         place.far_along = place.near_along - sums.stretch;
@@ -192,6 +195,15 @@ fn sum(sections: &[Section], shares: &[Share], end_m: f64, from: &Redundants, re
     let mut sums = Sums::default();
     for (section, share) in sections.iter().zip(shares) {
         let (flow, spring) = (share.flow * share.yields, share.spring);
+        if flow == 0.0 && spring == 0.0 {
+            for i in 0..2 {
+                let constant = section.weight_m * section.set[i];
+                sums.turn.constant[i] += constant;
+                sums.drop.constant[i] += constant * (end_m - section.at_m);
+            }
+            sums.stretch += section.weight_m * section.set_strain;
+            continue;
+        }
         let by_moment = section.weight_m * (flow + spring * (reach - share.newborn));
         let by_shear = section.weight_m * (flow * share.arm_m + spring * share.reach_m * reach);
         let arm_m = end_m - section.at_m;
@@ -241,15 +253,19 @@ fn yields(strand: &Strand, sections: &[Section], shares: &mut [Share], now: &Red
     changes
 }
 
+/// Curvature and strain at the end of the step, and their sums.
 fn finish(
     strand: &Strand,
     sections: &mut [Section],
     shares: &[Share],
     now: &Redundants,
     end: &Redundants,
-) {
+    end_m: f64,
+) -> Sums {
+    let mut sums = Sums::default();
     let rate = strand.ageing.elastic == Elastic::Rate;
     for (section, share) in sections.iter_mut().zip(shares) {
+        let arm_m = end_m - section.at_m;
         let flow = share.flow * share.yields;
         let mut last = ([0.0; 2], share.end.pull + end.pull);
         for i in 0..2 {
@@ -267,17 +283,10 @@ fn finish(
             section.set = section.curvature;
             section.set_strain = section.strain;
         }
-    }
-}
-
-/// Sums over the sections as they are.
-fn now_sums(sections: &[Section], end_m: f64) -> Sums {
-    let mut sums = Sums::default();
-    for section in sections {
         for i in 0..2 {
             let turn = section.weight_m * section.curvature[i];
             sums.turn.constant[i] += turn;
-            sums.drop.constant[i] += turn * (end_m - section.at_m);
+            sums.drop.constant[i] += turn * arm_m;
         }
         sums.stretch += section.weight_m * section.strain;
     }
