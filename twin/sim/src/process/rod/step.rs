@@ -1,6 +1,8 @@
 //! One step in time.
 
-use super::ends::{Place, Redundants, Sums, by_equilibrium, by_place, determinate, settle};
+use super::ends::{
+    Place, Redundants, Sums, both_held, by_equilibrium, by_place, determinate, settle,
+};
 use super::sections::{Load, Piece, Section, loads, weight};
 use super::{Elastic, Hold, Strand};
 
@@ -97,9 +99,16 @@ pub(super) fn step(
         None => 0.0,
     };
     let before = room.before.map_or_else(Redundants::default, |(redundants, _)| redundants);
-    let end_of = |now: &Redundants| ending.unwrap_or_else(|| carried(now, &before, carry));
+    let end_of = |now: &Redundants| {
+        let carried = carried(now, &before, carry);
+        match ending {
+            // between two hinges the pull still follows from place
+            Some(known) if both_held(hold) => Redundants { pull: carried.pull, ..known },
+            Some(known) => known,
+            None => carried,
+        }
+    };
     let from = end_of(&Redundants::default());
-    let reach = if ending.is_some() { 0.0 } else { 1.0 + carry };
     let mut now = Redundants::default();
     let rounds =
         if strand.elements.iter().any(|e| e.yield_moment_n_m > 0.0 || e.yield_force_n > 0.0) {
@@ -108,7 +117,7 @@ pub(super) fn step(
             1
         };
     for round in 0..rounds {
-        let sums = sum(sections, &room.shares, time.to_m, &from, reach);
+        let sums = sum(sections, &room.shares, time.to_m, &from, 1.0 + carry);
         now = by_place(hold, &sums, place, &far, middle_m, time.to_m);
         if round + 1 < rounds && !yields(strand, sections, &mut room.shares, &now) {
             break;

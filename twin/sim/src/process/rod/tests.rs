@@ -162,6 +162,23 @@ fn springs_as_beams_do() {
 }
 
 #[test]
+fn resolving_resolves() {
+    // 30 e-foldings in six segments
+    let elements = level(30.0 * SPEED * TAU, 6);
+    let fineness = Fineness::resolving(5.0 * SPEED * TAU, SPEED * TAU);
+    assert_eq!(fineness, Fineness { cuts: 15, steps: 32 });
+    let e = elements[0];
+    let want = e.line_mass_kg_m * GRAVITY * (SPEED * TAU).powi(5) / (4000.0 * e.inertia_m4 * SPEED);
+    for (ends, want, bound) in [(CLAMPED, want / 3.0, 0.001), (TOUCHING, want, 0.004)] {
+        let strand = strand(&elements, flowing(&ages, 33.0 * TAU), ends, &[]);
+        close(printed(&Strand { fineness, ..strand }).sag_nozzle_m, want, bound);
+    }
+    assert_eq!(Fineness::resolving(1.0, 0.0).cuts, 64);
+    assert_eq!(Fineness::resolving(f64::NAN, 1.0).cuts, 64);
+    assert_eq!(Fineness::resolving(0.001, 1.0).cuts, 1);
+}
+
+#[test]
 fn cost_is_linear_in_sections() {
     let elements = level(0.1, 100);
     let after = [until_rigid(CLAMPED)];

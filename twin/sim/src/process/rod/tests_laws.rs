@@ -225,6 +225,15 @@ fn steep_strands_stretch() {
     within(held.along_m[30], 0.0, 1e-15);
     assert!(held.thinning[0] < 1.0 && held.thinning[29] > 1.0);
     assert!(held.sag_nozzle_m == 0.0);
+    // the same of one that springs, whatever it is held by
+    let never = |_: usize, _: f64| 0.0;
+    let modulus = |_: usize, _: f64| 1e6;
+    for ends in [CLAMPED, TOUCHING, hold(End::Hinged, End::Hinged)] {
+        let ageing = Ageing { modulus_pa: Some(&modulus), ..flowing(&never, 0.0) };
+        let elements = elements(axes);
+        let out = printed(&strand(&elements, ageing, CLAMPED, &[until_rigid(ends)]));
+        close(out.along_m[15], DENSITY * GRAVITY * length_m * length_m / 8e6, 1e-9);
+    }
     let standing = run(upright, hold(End::Clamped, End::Free));
     close(standing.along_m[30], -0.5 * stretch, 1e-9);
 }

@@ -75,6 +75,7 @@ fn filament_orders() {
 }
 
 proptest::proptest! {
+    #![proptest_config(proptest::test_runner::Config::with_cases(24))]
     #[test]
     fn any_sag(bending in proptest::num::f64::ANY, diameter in proptest::num::f64::ANY) {
         let held = held_sag_m(bending, diameter);
