@@ -75,17 +75,8 @@ fn ageing_rod(criterion: &mut Criterion) {
     let table = AgeTable::new(|a| (-a / TAU).exp() / 12_000.0, 33.0 * TAU, 200);
     let compliance = |_: usize, age_s: f64| table.compliance_per_pa(age_s);
     let gravity = |_: f64| [0.0, 0.0, -9.81];
-    let area_m2 = PI * DIAMETER * DIAMETER / 4.0;
-    let element = Element {
-        length_m: 0.001,
-        printing_s: 0.001 / SPEED,
-        area_m2,
-        inertia_m4: area_m2 * DIAMETER * DIAMETER / 16.0,
-        line_mass_kg_m: 1240.0 * area_m2,
-        axes: Axes::new([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
-        yield_moment_n_m: 0.0,
-        yield_force_n: 0.0,
-    };
+    let axes = Axes::new([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    let element = Element::round(0.001, DIAMETER, SPEED, 1240.0, axes);
     let released = Hold { far: End::Clamped, near: End::Free };
     let after = [Phase { hold: released, duration_s: f64::INFINITY }];
     let mut group = criterion.benchmark_group("ageing rod");

@@ -8,6 +8,7 @@
 mod ends;
 mod run;
 mod sections;
+mod share;
 mod step;
 mod table;
 
@@ -18,8 +19,12 @@ mod tests_cases;
 #[cfg(test)]
 mod tests_laws;
 
+use std::f64::consts::PI;
+
 pub use run::print_strand;
 pub use table::AgeTable;
+
+use super::sag::inertia_m4;
 
 /// One straight piece of a strand's path, as the nozzle prints it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +45,31 @@ pub struct Element {
     pub yield_moment_n_m: f64,
     /// Pull below which nothing flows, N; zero: it always flows.
     pub yield_force_n: f64,
+}
+
+impl Element {
+    /// A round piece that always flows: length and diameter m, nozzle speed m/s, density kg/m³.
+    ///
+    /// A speed of zero or less gives a time that [`print_strand`] refuses.
+    pub fn round(
+        length_m: f64,
+        diameter_m: f64,
+        speed_m_s: f64,
+        density_kg_m3: f64,
+        axes: Axes,
+    ) -> Self {
+        let area_m2 = PI * diameter_m * diameter_m / 4.0;
+        Self {
+            length_m,
+            printing_s: length_m / speed_m_s,
+            area_m2,
+            inertia_m4: inertia_m4(diameter_m),
+            line_mass_kg_m: density_kg_m3 * area_m2,
+            axes,
+            yield_moment_n_m: 0.0,
+            yield_force_n: 0.0,
+        }
+    }
 }
 
 /// Directions of a strand, unit vectors square to one another, in the axes of the part.

@@ -1,6 +1,6 @@
-//! Strands for the tests, order of convergence, invariance, cost.
+//! Strands for the tests, order of convergence, cost, any input.
 
-use std::f64::consts::PI;
+use proptest::prelude::*;
 
 use super::super::tests::close;
 use super::*;
@@ -13,17 +13,7 @@ pub(super) const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
 /// A level piece along x; offsets down and along y.
 pub(super) fn element(length_m: f64) -> Element {
-    let area_m2 = PI * DIAMETER * DIAMETER / 4.0;
-    Element {
-        length_m,
-        printing_s: length_m / SPEED,
-        area_m2,
-        inertia_m4: area_m2 * DIAMETER * DIAMETER / 16.0,
-        line_mass_kg_m: DENSITY * area_m2,
-        axes: Axes::new([1.0, 0.0, 0.0], DOWN),
-        yield_moment_n_m: 0.0,
-        yield_force_n: 0.0,
-    }
+    Element::round(length_m, DIAMETER, SPEED, DENSITY, Axes::new([1.0, 0.0, 0.0], DOWN))
 }
 
 pub(super) fn level(length_m: f64, count: usize) -> Vec<Element> {
@@ -165,7 +155,7 @@ fn springs_as_beams_do() {
 fn resolving_resolves() {
     // 30 e-foldings in six segments
     let elements = level(30.0 * SPEED * TAU, 6);
-    let fineness = Fineness::resolving(5.0 * SPEED * TAU, SPEED * TAU);
+    let fineness = Fineness::resolving(5.0, 1.0);
     assert_eq!(fineness, Fineness { cuts: 15, steps: 32 });
     let e = elements[0];
     let want = e.line_mass_kg_m * GRAVITY * (SPEED * TAU).powi(5) / (4000.0 * e.inertia_m4 * SPEED);
@@ -211,5 +201,60 @@ fn rod_times() {
             }
             println!("{count} segments {springs}: {:.0} us, {updates} updates", best * 1e6);
         }
+    }
+}
+
+#[test]
+fn says_what_falls() {
+    let elements = level(0.01, 4);
+    let falls =
+        [hold(End::Free, End::Free), hold(End::Free, End::Hinged), hold(End::Hinged, End::Free)];
+    for ends in falls {
+        let after = [until_rigid(ends)];
+        let rod = strand(&elements, flowing(&ages, 16.0), CLAMPED, &after);
+        assert_eq!(print_strand(&rod), Err(RodError::Falls));
+    }
+    let rod = strand(&[], flowing(&ages, 16.0), CLAMPED, &[]);
+    assert_eq!(print_strand(&rod), Err(RodError::Input));
+    // a wait of the nozzle is an element without length
+    let mut waits = level(0.01, 10);
+    waits.insert(5, Element { length_m: 0.0, printing_s: 3.0, ..waits[0] });
+    let out = printed(&strand(&waits, flowing(&ages, 16.0), CLAMPED, &[]));
+    assert!(out.sag_nozzle_m > 0.0 && out.offset_m[5] == out.offset_m[6]);
+}
+
+fn end() -> impl Strategy<Value = End> {
+    prop_oneof![Just(End::Clamped), Just(End::Hinged), Just(End::Free)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+    #[test]
+    fn any_strand_is_told(
+        numbers in proptest::collection::vec(any::<f64>(), 9),
+        ends in (end(), end(), end(), end()),
+        (cuts, steps) in (any::<u32>(), 0..200_u32),
+        count in 0..4_usize,
+    ) {
+        let [length_m, printing_s, inertia_m4, mass, threshold, scale, modulus, rigid_s, wait_s] =
+            <[f64; 9]>::try_from(numbers).unwrap_or([1.0; 9]);
+        let piece = Element {
+            length_m,
+            printing_s,
+            inertia_m4,
+            line_mass_kg_m: mass,
+            yield_moment_n_m: threshold,
+            yield_force_n: threshold,
+            ..element(1.0)
+        };
+        let flows = |_: usize, age_s: f64| scale * age_s;
+        let springs = |_: usize, age_s: f64| modulus * age_s;
+        let ageing = Ageing { modulus_pa: Some(&springs), ..flowing(&flows, rigid_s) };
+        let after = [Phase { hold: hold(ends.2, ends.3), duration_s: wait_s }];
+        let elements = vec![piece; count];
+        let rod = strand(&elements, ageing, hold(ends.0, ends.1), &after);
+        let _ = print_strand(&Strand { fineness: Fineness { cuts: cuts % 5, steps }, ..rod });
+        let table = AgeTable::new(|a| scale * a, rigid_s, 5);
+        let _ = table.compliance_per_pa(wait_s);
     }
 }

@@ -1,6 +1,4 @@
-//! What must stay the same, what yields, what stretches, and any input.
-
-use proptest::prelude::*;
+//! What must stay the same, what yields, what stretches.
 
 use super::super::tests::{close, within};
 use super::tests::*;
@@ -251,59 +249,4 @@ fn shrinks_to_one_side() {
     let after = [until_rigid(CLAMPED)];
     let clamped = Strand { gravity_m_s2: &none, ..strand(&elements, ageing, CLAMPED, &after) };
     assert!(printed(&clamped).sag_nozzle_m < 1e-12);
-}
-
-#[test]
-fn says_what_falls() {
-    let elements = level(0.01, 4);
-    let falls =
-        [hold(End::Free, End::Free), hold(End::Free, End::Hinged), hold(End::Hinged, End::Free)];
-    for ends in falls {
-        let after = [until_rigid(ends)];
-        let rod = strand(&elements, flowing(&ages, 16.0), CLAMPED, &after);
-        assert_eq!(print_strand(&rod), Err(RodError::Falls));
-    }
-    let rod = strand(&[], flowing(&ages, 16.0), CLAMPED, &[]);
-    assert_eq!(print_strand(&rod), Err(RodError::Input));
-    // a wait of the nozzle is an element without length
-    let mut waits = level(0.01, 10);
-    waits.insert(5, Element { length_m: 0.0, printing_s: 3.0, ..waits[0] });
-    let out = printed(&strand(&waits, flowing(&ages, 16.0), CLAMPED, &[]));
-    assert!(out.sag_nozzle_m > 0.0 && out.offset_m[5] == out.offset_m[6]);
-}
-
-fn end() -> impl Strategy<Value = End> {
-    prop_oneof![Just(End::Clamped), Just(End::Hinged), Just(End::Free)]
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-    #[test]
-    fn any_strand_is_told(
-        numbers in proptest::collection::vec(any::<f64>(), 9),
-        ends in (end(), end(), end(), end()),
-        (cuts, steps) in (any::<u32>(), 0..200_u32),
-        count in 0..4_usize,
-    ) {
-        let [length_m, printing_s, inertia_m4, mass, threshold, scale, modulus, rigid_s, wait_s] =
-            <[f64; 9]>::try_from(numbers).unwrap_or([1.0; 9]);
-        let piece = Element {
-            length_m,
-            printing_s,
-            inertia_m4,
-            line_mass_kg_m: mass,
-            yield_moment_n_m: threshold,
-            yield_force_n: threshold,
-            ..element(1.0)
-        };
-        let flows = |_: usize, age_s: f64| scale * age_s;
-        let springs = |_: usize, age_s: f64| modulus * age_s;
-        let ageing = Ageing { modulus_pa: Some(&springs), ..flowing(&flows, rigid_s) };
-        let after = [Phase { hold: hold(ends.2, ends.3), duration_s: wait_s }];
-        let elements = vec![piece; count];
-        let rod = strand(&elements, ageing, hold(ends.0, ends.1), &after);
-        let _ = print_strand(&Strand { fineness: Fineness { cuts: cuts % 5, steps }, ..rod });
-        let table = AgeTable::new(|a| scale * a, rigid_s, 5);
-        let _ = table.compliance_per_pa(wait_s);
-    }
 }
