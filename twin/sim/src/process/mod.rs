@@ -6,11 +6,13 @@
 
 pub mod age_samples;
 pub mod air_side;
+pub mod angle;
 pub mod bead;
 pub mod clock;
 pub mod coiling;
 pub mod contact;
 pub mod cooled;
+pub mod corotational;
 pub mod course;
 pub mod cure;
 mod cure_piece;
@@ -45,6 +47,7 @@ pub mod soft;
 pub mod soft_rod;
 pub mod solid;
 pub mod strand;
+pub mod stretch;
 mod sweep;
 pub mod tait;
 pub mod thermal;

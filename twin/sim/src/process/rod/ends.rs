@@ -46,6 +46,11 @@ pub(super) fn determinate(hold: Hold) -> bool {
         || hold.far == hold.near && hold.near == End::Hinged
 }
 
+/// Whether both ends are held along the strand.
+pub(super) fn both_held(hold: Hold) -> bool {
+    hold.far != End::Free && hold.near != End::Free
+}
+
 /// Whether what holds it holds it.
 pub(super) fn stands(hold: Hold) -> Result<(), RodError> {
     use End::{Clamped, Free, Hinged};
@@ -78,7 +83,7 @@ pub(super) fn by_place(
     length_m: f64,
 ) -> Redundants {
     let mut out = by_equilibrium(hold, load, mid_m);
-    if hold.far != End::Free && hold.near != End::Free {
+    if both_held(hold) {
         let wanted = place.near_along - place.far_along - sums.stretch;
         out.pull = divide(wanted, sums.stretch_by_pull);
     }

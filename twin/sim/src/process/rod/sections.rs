@@ -101,7 +101,6 @@ pub(super) fn loads(
     gravity: [f64; 3],
     out: &mut Vec<Load>,
 ) -> Load {
-    out.clear();
     out.resize(sections.len(), Load::default());
     let mut sum = Load::default();
     let mut near_m = end_m;

@@ -1,7 +1,10 @@
 //! One step in time.
 
-use super::ends::{Place, Redundants, Sums, by_equilibrium, by_place, determinate, settle};
+use super::ends::{
+    Place, Redundants, Sums, both_held, by_equilibrium, by_place, determinate, settle,
+};
 use super::sections::{Load, Piece, Section, loads, weight};
+use super::share::{Share, flow, spring};
 use super::{Elastic, Hold, Strand};
 
 /// From when to when, and where the nozzle is then.
@@ -10,27 +13,6 @@ pub(super) struct Interval {
     pub(super) to_s: f64,
     pub(super) from_m: f64,
     pub(super) to_m: f64,
-}
-
-/// What one section can do in a step: its curvature at the end is
-/// `set + flow (M_mid + M0 + V0 arm) + spring (M_end + M0' + V0' reach − was)`, primes at the end of the step.
-#[derive(Clone, Copy, Default)]
-struct Share {
-    flow: f64,
-    stretch: f64,
-    arm_m: f64,
-    load: Load,
-    spring: f64,
-    spring_stretch: f64,
-    reach_m: f64,
-    end: Load,
-    /// Moment already sprung to, where the modulus acts by rate.
-    was: [f64; 2],
-    was_pull: f64,
-    /// One for a section born in this step where the modulus acts by rate: it comes out under M0 and N.
-    newborn: f64,
-    /// Share of the flow that the yield stress leaves.
-    yields: f64,
 }
 
 /// Room for a step, kept between steps, and the redundants before.
@@ -44,7 +26,7 @@ pub(super) struct Room {
 }
 
 /// Iterations on what yields, and the share that flows at least (so that the redundants stay finite).
-const YIELD_ROUNDS: usize = 30;
+const YIELD_ROUNDS: usize = 40;
 const LEAST_FLOW: f64 = 1e-6;
 
 /// Steps the born sections of `pieces`, in time linear in their number; returns the redundants.
@@ -74,6 +56,10 @@ pub(super) fn step(
     room.shares.clear();
     for (i, section) in sections.iter_mut().enumerate() {
         let mut share = flow(strand, section, time, hold);
+        if share.flow == 0.0 && strand.ageing.modulus_pa.is_none() {
+            room.shares.push(share); // rigid: its load does nothing
+            continue;
+        }
         // the nozzle is farther on, or less far, when this section flows than in the middle of the step
         let (arm_m, on_m) = (middle_m - section.at_m, share.arm_m);
         share.load = room.middle[i];
@@ -93,9 +79,16 @@ pub(super) fn step(
         None => 0.0,
     };
     let before = room.before.map_or_else(Redundants::default, |(redundants, _)| redundants);
-    let end_of = |now: &Redundants| ending.unwrap_or_else(|| carried(now, &before, carry));
+    let end_of = |now: &Redundants| {
+        let carried = carried(now, &before, carry);
+        match ending {
+            // between two hinges the pull still follows from place
+            Some(known) if both_held(hold) => Redundants { pull: carried.pull, ..known },
+            Some(known) => known,
+            None => carried,
+        }
+    };
     let from = end_of(&Redundants::default());
-    let reach = if ending.is_some() { 0.0 } else { 1.0 + carry };
     let mut now = Redundants::default();
     let rounds =
         if strand.elements.iter().any(|e| e.yield_moment_n_m > 0.0 || e.yield_force_n > 0.0) {
@@ -104,15 +97,14 @@ pub(super) fn step(
             1
         };
     for round in 0..rounds {
-        let sums = sum(sections, &room.shares, time.to_m, &from, reach);
+        let sums = sum(sections, &room.shares, time.to_m, &from, 1.0 + carry);
         now = by_place(hold, &sums, place, &far, middle_m, time.to_m);
         if round + 1 < rounds && !yields(strand, sections, &mut room.shares, &now) {
             break;
         }
     }
     let end = end_of(&now);
-    finish(strand, sections, &room.shares, &now, &end);
-    let sums = now_sums(sections, time.to_m);
+    let sums = finish(strand, sections, &room.shares, &now, &end, time.to_m);
     settle(hold, sums.turn.constant, sums.drop.constant, time.to_m, place);
     if hold.far == super::End::Free {
         place.far_along = place.near_along - sums.stretch;
@@ -121,60 +113,6 @@ pub(super) fn step(
     }
     room.before = Some((now, time.to_s - time.from_s));
     now
-}
-
-/// Flow of a section over the step; `arm_m` is how much farther on the nozzle is at the middle of its flow.
-fn flow(strand: &Strand, section: &mut Section, time: &Interval, hold: Hold) -> Share {
-    let ageing = &strand.ageing;
-    let from_s = (time.from_s - section.birth_s).max(0.0);
-    let to_s = time.to_s - section.birth_s;
-    let mut share = Share { yields: 1.0, ..Share::default() };
-    if let Some(curvature) = ageing.free_curvature_per_m {
-        let (was, is) = (curvature(section.element, from_s), curvature(section.element, to_s));
-        for i in 0..2 {
-            section.set[i] += is[i] - was[i];
-        }
-    }
-    if from_s >= ageing.rigid_s {
-        return share;
-    }
-    let middle_s = 0.5 * (from_s + to_s);
-    let middle = (ageing.compliance_per_pa)(section.element, middle_s);
-    let end = (ageing.compliance_per_pa)(section.element, to_s);
-    let (early, late) = (middle - section.compliance, end - middle);
-    let compliance = (end - section.compliance).max(0.0);
-    section.compliance = end;
-    share.flow = compliance * section.per_inertia;
-    share.stretch = compliance * section.per_area;
-    if !determinate(hold) && compliance > 0.0 && time.to_s > time.from_s {
-        let quarter_s = 0.25 * (to_s - from_s);
-        let flows_s = section.birth_s + middle_s + quarter_s * (late - early) / compliance;
-        let speed_m_s = (time.to_m - time.from_m) / (time.to_s - time.from_s);
-        share.arm_m = speed_m_s * (flows_s - 0.5 * (time.from_s + time.to_s));
-    }
-    share
-}
-
-fn spring(strand: &Strand, section: &Section, time: &Interval, share: &mut Share) {
-    let Some(modulus) = strand.ageing.modulus_pa else { return };
-    let springs = |age_s: f64| {
-        let pa = modulus(section.element, age_s.max(0.0));
-        if pa > 0.0 && pa.is_finite() { 1.0 / pa } else { 0.0 }
-    };
-    let to_s = time.to_s - section.birth_s;
-    share.reach_m = time.to_m - section.at_m;
-    let softness = match strand.ageing.elastic {
-        Elastic::Total => springs(to_s),
-        Elastic::Rate => {
-            match section.last {
-                Some((moment, pull)) => (share.was, share.was_pull) = (moment, pull),
-                None => share.newborn = 1.0,
-            }
-            springs(to_s - 0.5 * to_s.min(time.to_s - time.from_s))
-        }
-    };
-    share.spring = softness * section.per_inertia;
-    share.spring_stretch = softness * section.per_area;
 }
 
 /// Redundants at the end of the step from those of two steps.
@@ -192,6 +130,15 @@ fn sum(sections: &[Section], shares: &[Share], end_m: f64, from: &Redundants, re
     let mut sums = Sums::default();
     for (section, share) in sections.iter().zip(shares) {
         let (flow, spring) = (share.flow * share.yields, share.spring);
+        if flow == 0.0 && spring == 0.0 {
+            for i in 0..2 {
+                let constant = section.weight_m * section.set[i];
+                sums.turn.constant[i] += constant;
+                sums.drop.constant[i] += constant * (end_m - section.at_m);
+            }
+            sums.stretch += section.weight_m * section.set_strain;
+            continue;
+        }
         let by_moment = section.weight_m * (flow + spring * (reach - share.newborn));
         let by_shear = section.weight_m * (flow * share.arm_m + spring * share.reach_m * reach);
         let arm_m = end_m - section.at_m;
@@ -234,22 +181,26 @@ fn yields(strand: &Strand, sections: &[Section], shares: &mut [Share], now: &Red
         }
         if element.yield_moment_n_m > 0.0 || element.yield_force_n > 0.0 {
             let leaves = (1.0 - 1.0 / used).max(LEAST_FLOW);
-            changes |= (leaves - share.yields).abs() > 1e-4;
+            changes |= (leaves - share.yields).abs() > 1e-7;
             share.yields = 0.5 * (leaves + share.yields);
         }
     }
     changes
 }
 
+/// Curvature and strain at the end of the step, and their sums.
 fn finish(
     strand: &Strand,
     sections: &mut [Section],
     shares: &[Share],
     now: &Redundants,
     end: &Redundants,
-) {
+    end_m: f64,
+) -> Sums {
+    let mut sums = Sums::default();
     let rate = strand.ageing.elastic == Elastic::Rate;
     for (section, share) in sections.iter_mut().zip(shares) {
+        let arm_m = end_m - section.at_m;
         let flow = share.flow * share.yields;
         let mut last = ([0.0; 2], share.end.pull + end.pull);
         for i in 0..2 {
@@ -267,17 +218,10 @@ fn finish(
             section.set = section.curvature;
             section.set_strain = section.strain;
         }
-    }
-}
-
-/// Sums over the sections as they are.
-fn now_sums(sections: &[Section], end_m: f64) -> Sums {
-    let mut sums = Sums::default();
-    for section in sections {
         for i in 0..2 {
             let turn = section.weight_m * section.curvature[i];
             sums.turn.constant[i] += turn;
-            sums.drop.constant[i] += turn * (end_m - section.at_m);
+            sums.drop.constant[i] += turn * arm_m;
         }
         sums.stretch += section.weight_m * section.strain;
     }
