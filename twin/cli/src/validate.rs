@@ -83,6 +83,9 @@ fn all(cases: &[Case], exact: &[Case], screen: &mut Screen<'_>) -> Result<u8, Fa
         count(kind_word(kind), cases.iter().filter(|case| case.kind == kind), screen)?;
     }
     count("closed form", exact.iter(), screen)?;
+    let rest =
+        "the closed forms that take more than a call are tests of `sim::process`, by their ids";
+    writeln!(screen.out, "{:12}   {rest}", "")?;
     let unexplained: Vec<&str> =
         cases.iter().chain(exact).filter(|case| !case.is_explained()).map(|case| case.id).collect();
     if unexplained.is_empty() {
