@@ -24,14 +24,14 @@ sd_mm = 0.04
 span_mm = 30
 speed_mm_s = 10
 diameter_mm = 1.1
-sag_mm = 0.95
+sag_mm = 0.9
 sd_mm = 0.04
 
 [[cantilever]]
 length_mm = 100
 speed_mm_s = 5
 diameter_mm = 1.1
-end_miss_mm = 0.2
+end_miss_mm = 0.15
 sd_mm = 0.02
 "#;
 
@@ -126,7 +126,7 @@ fn what_cannot_be_calibrated_is_refused_at_its_place() {
     refused(PLA.replace("kr6-hot-end", "kr6-hot-and"), "1:8", &["did you mean `kr6-hot-end`?"]);
     refused(PLA.replace("\"pla\"", "\"plo\""), "2:12", &["did you mean `pla`?"]);
     refused(RESIN.replace("sla-resin-silica", "pla"), "2:12", &["no photopolymer"]);
-    refused(PLA.replace("sag_mm = 0.95", "sag_mm = -1"), "19:10", &["`sag_mm`"]);
+    refused(PLA.replace("sag_mm = 0.9", "sag_mm = -1"), "19:10", &["`sag_mm`"]);
     let missing = dir.join("none.toml").display().to_string();
     assert_refused(&twin(["calibrate", &missing]), &format!("{missing}:1:1"), &["no such file"]);
     let file = write(&dir, "m.toml", PLA);
