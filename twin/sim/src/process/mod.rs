@@ -5,16 +5,19 @@
 //! established is not claimed here, and uncertain inputs come out as intervals.
 
 pub mod bead;
+pub mod bed_light;
 pub mod cure;
 pub mod dose;
 pub mod elastica;
 pub mod gel;
 pub mod heat;
 pub mod history;
+mod irradiance;
 pub mod lamp;
 pub mod light;
 pub mod lights;
 pub mod material;
+mod memo;
 mod reach;
 pub mod sag;
 pub mod shade;
@@ -22,6 +25,7 @@ pub mod shrinkage;
 pub mod soft;
 pub mod strand;
 mod sweep;
+pub mod through;
 pub mod viscosity;
 
 pub use history::History;
@@ -38,6 +42,8 @@ mod tests;
 mod tests_dose;
 #[cfg(test)]
 mod tests_heat;
+#[cfg(test)]
+mod tests_lamp;
 #[cfg(test)]
 mod tests_sag;
 #[cfg(test)]
