@@ -23,6 +23,7 @@ pub mod sag;
 pub mod shade;
 pub mod shrinkage;
 pub mod soft;
+mod steps;
 pub mod strand;
 mod sweep;
 pub mod through;
@@ -48,3 +49,5 @@ mod tests_lamp;
 mod tests_sag;
 #[cfg(test)]
 mod tests_strand;
+#[cfg(test)]
+mod tests_through;

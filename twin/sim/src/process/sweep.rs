@@ -5,12 +5,11 @@ use crate::pose::Point;
 use super::dose::{Run, Segment, SegmentDose, Strand, mean};
 use super::irradiance::{Azimuths, Irradiance};
 use super::lamp::{Lamp, Lobe};
-use super::lights::{LEAST_SHARE, LampSet, Lights, Scene, Station};
+use super::lights::{LEAST_SHARE, LampSet, Lights, Station};
 use super::memo::Memo;
 use super::reach::Tree;
+use super::steps::{EARLY, END, FINE, INSTANTS, LATE, MIDDLE, PIECES, Step, spans};
 
-/// Finer pieces of a step where something happens within it.
-const FINE: usize = 16;
 /// Share of the greatest irradiance so far above which a step is looked at thrice.
 const BRIGHT: f64 = 0.1;
 /// Most steps between two stations.
@@ -184,84 +183,6 @@ impl<'a> Sweep<'a> {
             *had += gets * span_s;
         }
     }
-}
-
-/// Instants of a step that are looked at.
-const MIDDLE: usize = 0;
-const END: usize = 1;
-/// With the middle, the three of Gauss.
-const EARLY: usize = 2;
-const LATE: usize = 3;
-/// The middles of the finer pieces.
-const PIECES: usize = 4;
-const INSTANTS: usize = PIECES + FINE;
-
-/// A short piece of the run and the scenes within it, each made when first asked for.
-struct Step<'a> {
-    ends: [Station; 2],
-    /// Which span of the run, and which step of that.
-    place: (usize, usize),
-    lights: &'a Lights,
-    middle: Scene,
-    others: Vec<Option<Scene>>,
-}
-
-impl<'a> Step<'a> {
-    fn new(ends: [Station; 2], place: (usize, usize), lights: &'a Lights) -> Self {
-        let others = (0..INSTANTS).map(|_| None).collect();
-        let mut step = Self { ends, place, lights, middle: Scene::default(), others };
-        step.middle = step.scene(0.5);
-        step
-    }
-
-    fn scene(&self, share: f64) -> Scene {
-        // No lamp is switched inside a step: its middle says which are on.
-        let lit_at_s = 0.5 * (self.ends[0].time_s + self.ends[1].time_s);
-        self.lights.scene(&self.ends[0].towards(&self.ends[1], share), lit_at_s)
-    }
-
-    fn scene_at(&mut self, instant: usize) -> &Scene {
-        let share = match instant {
-            MIDDLE => return &self.middle,
-            END => 1.0,
-            EARLY => 0.5 - 0.15_f64.sqrt(),
-            LATE => 0.5 + 0.15_f64.sqrt(),
-            piece => ((piece - PIECES) as f64 + 0.5) / FINE as f64,
-        };
-        if self.others[instant].is_none() {
-            self.others[instant] = Some(self.scene(share));
-        }
-        self.others[instant].as_ref().unwrap_or(&self.middle)
-    }
-}
-
-/// The run between stations, cut where a set of lamps is switched, with the dwell at the end.
-fn spans(run: &Run) -> Vec<[Station; 2]> {
-    let mut switches: Vec<f64> = run.lights.switch_times_s().collect();
-    switches.sort_by(f64::total_cmp);
-    let mut spans = Vec::with_capacity(run.stations.len() + switches.len());
-    let mut cut = |a: &Station, b: &Station| {
-        let span_s = b.time_s - a.time_s;
-        if !(span_s > 0.0 && span_s.is_finite()) {
-            return;
-        }
-        let first = switches.partition_point(|t| *t <= a.time_s);
-        let mut from = *a;
-        for at_s in switches[first..].iter().take_while(|t| **t < b.time_s) {
-            let to = a.towards(b, (at_s - a.time_s) / span_s);
-            spans.push([from, to]);
-            from = to;
-        }
-        spans.push([from, *b]);
-    };
-    for pair in run.stations.windows(2) {
-        cut(&pair[0], &pair[1]);
-    }
-    if let Some(last) = run.stations.last() {
-        let rested = Station { time_s: last.time_s + run.dwell_s, ..*last };
-        cut(last, &rested);
-    }
-    spans
 }
 
 /// How fine to cut, and where to stop looking.

@@ -81,13 +81,19 @@ fn brute_force(
     pose_at: &dyn Fn(f64) -> Pose,
     lights: &Lights,
 ) -> Vec<f64> {
-    let steps = 6000;
-    let mut doses = vec![0.0; normals.len()];
+    // Dense while the nozzle is near, less so after.
     let start_s = span_s[0].max(segment.born_s);
-    let dt = (span_s[1] - start_s) / f64::from(steps);
+    let near_s = span_s[1].min(start_s + 8.0);
+    let instants = [(start_s, near_s, 2000), (near_s, span_s[1], 500)].into_iter().flat_map(
+        |(from_s, until_s, steps)| {
+            let dt = (until_s - from_s) / f64::from(steps);
+            (0..steps).map(move |i| (from_s + dt * (f64::from(i) + 0.5), dt))
+        },
+    );
+    let mut doses = vec![0.0; normals.len()];
     let shades: Vec<Shade> = lights.shades.iter().map(|s| s.1).collect();
-    for step in 0..steps {
-        let tool_from_part = pose_at(start_s + dt * (f64::from(step) + 0.5)).inverse();
+    for (time_s, dt) in instants {
+        let tool_from_part = pose_at(time_s).inverse();
         for (dose, normal) in doses.iter_mut().zip(normals) {
             let point = tool_from_part * (segment.middle + normal * radius_m);
             let normal = tool_from_part * normal;
@@ -141,7 +147,7 @@ fn misses(stations: &[Station], picks: &[usize], lights: &Lights) -> (f64, f64) 
         for (got, want) in doses[pick].surface_j_m2.iter().zip(&want) {
             worst = worst.max((got - want).abs() / scale);
         }
-        let dense = around(segment, 48);
+        let dense = around(segment, 25);
         let want = brute_force(segment, CLEAR.radius_m, &dense, span_s, &pose_at, lights);
         worst_mean = worst_mean.max((doses[pick].mean_j_m2() / mean(&want) - 1.0).abs());
     }
