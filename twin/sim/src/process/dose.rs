@@ -2,7 +2,7 @@
 
 use crate::pose::{Point, Vector};
 
-use super::lights::{Lights, Scene, Station};
+use super::lights::{Lights, Station};
 use super::sweep;
 
 /// Azimuths round a segment at which dose is kept, unless told: odd and prime to common rings.
@@ -118,10 +118,16 @@ impl SegmentDose {
 /// lamp's axis and of the greatest irradiance at the nozzle, is left out; so is light thrown back by the bed
 /// (see [`bed_light`](super::bed_light)). A segment starts at its birth: what was lit before is nought.
 ///
-/// Time is cut so that the lamps move by at most 0.4 of the lobe's standard width between instants, and eight
-/// times finer at birth, where an edge of shade passes and where the surface gels: within 1 % of a dense
-/// ray sum. Cost: a tree of balls over the segments finds those in reach at each station, so `n` stations
-/// cost `n log n` plus `n` times the segments in reach, times lamps and azimuths; not `n²`.
+/// Time is cut so that the lamps move by at most 0.4 of the lobe's standard width at a step; a step is looked at
+/// three times (Gauss) where it is bright, and in sixteen pieces at birth, where an edge of shade passes and
+/// where the surface gels. Within 1 % of a dense ray sum on each azimuth, 0.3 % in the mean; 2 % where the run
+/// ends while a segment has seen a millimetre of light.
+///
+/// Cost: a tree of boxes finds the segments in reach at each step, so `n` stations cost `n log n` plus `n` times
+/// the segments in reach, times lamps and azimuths; not `n²`. Where lamps and shades all stand on one carrier and
+/// the strand has the same shape behind the nozzle as a moment ago (straight, round, screw, evenly spaced
+/// stations), the irradiance is remembered and not summed again.
+///
 /// A second run over the same segments adds its dose to what is there: [`add_run`].
 pub fn strand_dose(run: &Run, strand: &Strand) -> Vec<SegmentDose> {
     let segments = segments(run.stations);
@@ -142,98 +148,6 @@ pub fn add_run(
     strand: &Strand,
 ) -> usize {
     sweep::sweep(segments, doses, run, strand)
-}
-
-/// A segment's surface: outward normals at its azimuths.
-pub(super) fn normals(segment: &Segment, azimuths: usize, out: &mut Vec<Vector>) {
-    let other = segment.tangent.cross(&segment.across);
-    for i in 0..azimuths {
-        let (sin, cos) = (std::f64::consts::TAU * i as f64 / azimuths as f64).sin_cos();
-        out.push(segment.across * cos + other * sin);
-    }
-}
-
-/// Irradiance at an instant: on the surface at each azimuth, and as beams, W/m².
-#[derive(Debug, Clone)]
-pub(super) struct Irradiance {
-    pub(super) surface: Vec<f64>,
-    pub(super) beam: Vec<f64>,
-    /// Which pairs of lamp and azimuth a shade hides, as a sum of marks: it differs when a shadow moves.
-    pub(super) hidden: u64,
-    /// Whether any lamp may be shaded at all.
-    pub(super) near_shade: bool,
-}
-
-impl Irradiance {
-    pub(super) fn dark(azimuths: usize) -> Self {
-        let zeros = vec![0.0; azimuths];
-        Self { surface: zeros.clone(), beam: zeros, hidden: 0, near_shade: false }
-    }
-
-    /// Fills in what a scene gives a segment.
-    pub(super) fn fill(&mut self, scene: &Scene, middle: Point, normals: &[Vector], radius_m: f64) {
-        self.surface.fill(0.0);
-        self.beam.fill(0.0);
-        (self.hidden, self.near_shade) = (0, false);
-        for (index, seen) in scene.lamps.iter().enumerate() {
-            let lamp = &seen.lamp;
-            let to = lamp.at - middle;
-            let (distance2, along) = (to.norm_squared(), -lamp.along.dot(&to));
-            // Not one point of the surface is inside the lobe: its middle is out by more than the radius.
-            let distance_m = distance2.sqrt();
-            if along + radius_m < seen.least_cosine * (distance_m - radius_m) {
-                continue;
-            }
-            let shaded = scene.may_shade(lamp.at, middle, radius_m);
-            self.near_shade |= shaded;
-            let (mut facing, mut seeing) = (0.0, 0.0);
-            let mut best = (0, f64::NEG_INFINITY);
-            for (azimuth, normal) in normals.iter().enumerate() {
-                let out = to.dot(normal);
-                if out > best.1 {
-                    best = (azimuth, out);
-                }
-                let height = out - radius_m;
-                if !(height > 0.0) {
-                    continue;
-                }
-                facing += 1.0;
-                if shaded && scene.is_blocked(lamp.at, middle + normal * radius_m) {
-                    let mark = (index * normals.len() + azimuth + 1) as u64;
-                    self.hidden =
-                        self.hidden.wrapping_add(mark.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-                    continue;
-                }
-                seeing += 1.0;
-                let square = distance2 - radius_m * (2.0 * out - radius_m);
-                let inverse = 1.0 / square.sqrt();
-                let cosine = (along + radius_m * lamp.along.dot(normal)) * inverse;
-                if cosine >= seen.least_cosine {
-                    self.surface[azimuth] +=
-                        lamp.intensity_w_sr(cosine) * height * inverse * inverse * inverse;
-                }
-            }
-            let cosine = along / distance_m;
-            if seeing > 0.0 && cosine >= seen.least_cosine {
-                let share = seeing / facing / (distance2 * distance_m);
-                self.add_beam(best, to, normals, lamp.intensity_w_sr(cosine) * share);
-            }
-        }
-    }
-
-    /// Shares a lamp's light between the two azimuths it stands between; `per_m` is `J/r³`.
-    fn add_beam(&mut self, best: (usize, f64), to: Vector, normals: &[Vector], per_m: f64) {
-        let count = normals.len();
-        let (before, after) = ((best.0 + count - 1) % count, (best.0 + 1) % count);
-        let next = if to.dot(&normals[before]) > to.dot(&normals[after]) { before } else { after };
-        let (p, q, cosine) = (best.1, to.dot(&normals[next]), normals[best.0].dot(&normals[next]));
-        let (a, b) = (p - q * cosine, (q - p * cosine).max(0.0));
-        let across_m = (a * p + b * q).max(0.0).sqrt() / (1.0 - cosine * cosine).sqrt();
-        if across_m > 0.0 {
-            self.beam[best.0] += per_m * across_m * a / (a + b);
-            self.beam[next] += per_m * across_m * b / (a + b);
-        }
-    }
 }
 
 pub(super) fn mean(values: &[f64]) -> f64 {

@@ -85,6 +85,10 @@ fn between(a: &Pose, b: &Pose, share: f64) -> Pose {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Scene {
     pub(super) lamps: Vec<SeenLamp>,
+    /// Tool, room and part seen from the part.
+    pub(super) part_from: [Pose; 3],
+    /// Which sets are on, a bit each, of the first 64.
+    pub(super) lit: u64,
     shades: Vec<(Shade, Point, f64)>,
 }
 
@@ -107,9 +111,11 @@ impl Lights {
     /// The scene at a station; `lit_at_s` says which sets are on.
     pub(super) fn scene(&self, station: &Station, lit_at_s: f64) -> Scene {
         let mut lamps = Vec::new();
-        for set in &self.sets {
+        let mut lit = 0;
+        for (index, set) in self.sets.iter().enumerate() {
             if set.on_s.iter().any(|on| on[0] <= lit_at_s && lit_at_s <= on[1]) {
                 let pose = station.part_from(set.carrier);
+                lit |= 1 << (index % 64);
                 lamps.extend(set.lamps.iter().map(|lamp| SeenLamp {
                     lamp: lamp.moved(&pose),
                     least_cosine: lamp.cosine_at_share(LEAST_SHARE).max(0.0),
@@ -125,7 +131,8 @@ impl Lights {
                 (shade, centre, radius_m)
             })
             .collect();
-        Scene { lamps, shades }
+        let part_from = [Carrier::Tool, Carrier::Room, Carrier::Part];
+        Scene { lamps, part_from: part_from.map(|c| station.part_from(c)), lit, shades }
     }
 }
 

@@ -8,6 +8,7 @@ pub mod age_samples;
 pub mod air_side;
 pub mod angle;
 pub mod bead;
+pub mod bed_light;
 pub mod clock;
 pub mod coiling;
 pub mod contact;
@@ -26,6 +27,7 @@ pub mod gel;
 pub mod healing;
 pub mod heat;
 pub mod history;
+mod irradiance;
 pub mod jet;
 pub mod kamal;
 pub mod kinetics;
@@ -33,6 +35,7 @@ pub mod lamp;
 pub mod light;
 pub mod lights;
 pub mod material;
+mod memo;
 pub mod oxygen;
 pub mod plastic_bending;
 pub mod radial;
@@ -46,12 +49,14 @@ pub mod shrinkage;
 pub mod soft;
 pub mod soft_rod;
 pub mod solid;
+mod steps;
 pub mod strand;
 pub mod stretch;
 mod sweep;
 pub mod tait;
 pub mod thermal;
 pub mod threads;
+pub mod through;
 pub mod tube;
 pub mod viscosity;
 pub mod yield_stress;
@@ -87,6 +92,8 @@ mod tests_heat;
 #[cfg(test)]
 mod tests_kinetics;
 #[cfg(test)]
+mod tests_lamp;
+#[cfg(test)]
 mod tests_rods;
 #[cfg(test)]
 mod tests_sag;
@@ -100,5 +107,7 @@ mod tests_strand;
 mod tests_thermal_anchor;
 #[cfg(test)]
 mod tests_threads;
+#[cfg(test)]
+mod tests_through;
 #[cfg(test)]
 mod tests_yield;

@@ -1,14 +1,17 @@
 //! The run of the nozzle past a strand, cut into steps, and the segments in reach of the lamps at each.
 
-use crate::pose::{Point, Vector};
+use crate::pose::Point;
 
-use super::dose::{Irradiance, Run, Segment, SegmentDose, Strand, mean, normals};
+use super::dose::{Run, Segment, SegmentDose, Strand, mean};
+use super::irradiance::{Azimuths, Irradiance};
 use super::lamp::{Lamp, Lobe};
-use super::lights::{LEAST_SHARE, LampSet, Lights, Scene, Station};
+use super::lights::{LEAST_SHARE, LampSet, Lights, Station};
+use super::memo::Memo;
 use super::reach::Tree;
+use super::steps::{EARLY, END, FINE, INSTANTS, LATE, MIDDLE, PIECES, Step, spans};
 
-/// Finer pieces of a step where something happens within it.
-const FINE: usize = 8;
+/// Share of the greatest irradiance so far above which a step is looked at thrice.
+const BRIGHT: f64 = 0.1;
 /// Most steps between two stations.
 const MOST_STEPS: f64 = 256.0;
 /// Step of the lamps, in standard widths of the lobe.
@@ -32,13 +35,13 @@ pub(super) fn sweep(
     }
     let tree = Tree::over(segments);
     let grain = Grain::of(run);
-    let mut sweep = Sweep::new(segments, azimuths, strand);
+    let mut sweep = Sweep::new(segments, azimuths, strand, run.lights);
     let mut reached = Vec::new();
-    for pair in spans(run) {
-        let (count, slack_m, slack_rad) = grain.steps(&pair, run.lights);
+    for (number, pair) in spans(run).iter().enumerate() {
+        let (count, slack_m, slack_rad) = grain.steps(pair, run.lights);
         for i in 0..count {
             let cut = |i: usize| pair[0].towards(&pair[1], i as f64 / count as f64);
-            let mut step = Step::new([cut(i), cut(i + 1)], run.lights);
+            let mut step = Step::new([cut(i), cut(i + 1)], (number, i), run.lights);
             if step.middle.lamps.is_empty() {
                 continue;
             }
@@ -61,53 +64,69 @@ pub(super) fn sweep(
 /// A strand being lit.
 struct Sweep<'a> {
     segments: &'a [Segment],
-    /// Outward normals, `azimuths` to a segment.
-    around: Vec<Vector>,
+    round: Azimuths,
     strand: &'a Strand,
-    azimuths: usize,
     now: Irradiance,
+    memo: Memo,
     /// What was hidden from each segment when it was last looked at.
     hidden: Vec<u64>,
     looks: usize,
 }
 
 impl<'a> Sweep<'a> {
-    fn new(segments: &'a [Segment], azimuths: usize, strand: &'a Strand) -> Self {
-        let mut around = Vec::with_capacity(azimuths * segments.len());
-        for segment in segments {
-            normals(segment, azimuths, &mut around);
+    fn new(segments: &'a [Segment], azimuths: usize, strand: &'a Strand, lights: &Lights) -> Self {
+        Self {
+            segments,
+            round: Azimuths::new(azimuths),
+            strand,
+            now: Irradiance::dark(azimuths),
+            memo: Memo::new(lights),
+            hidden: vec![0; segments.len()],
+            looks: 0,
         }
-        let (now, hidden) = (Irradiance::dark(azimuths), vec![0; segments.len()]);
-        Self { segments, around, strand, azimuths, now, hidden, looks: 0 }
     }
 
-    fn look(&mut self, index: usize, scene: &Scene) {
+    fn look(&mut self, index: usize, step: &mut Step, instant: usize) {
         self.looks += 1;
-        let normals = &self.around[index * self.azimuths..(index + 1) * self.azimuths];
-        self.now.fill(scene, self.segments[index].middle, normals, self.strand.radius_m);
+        let (round, radius_m) = (&self.round, self.strand.radius_m);
+        let segment = &self.segments[index];
+        // How far behind the nozzle, and which instant: the same for a strand of even shape.
+        let (number, part) = step.place;
+        let key = (number.wrapping_sub(index), part * INSTANTS + instant);
+        let scene = step.scene_at(instant);
+        self.memo.look(key, scene, segment, &mut self.now, |now| {
+            now.fill(scene, segment, round, radius_m);
+        });
     }
 
-    /// Adds a step to a segment: by its middle, or in finer pieces where the segment is born, gels or meets
-    /// the edge of a shadow.
+    /// Adds a step to a segment: by three instants where it is bright and one where it is not, or in finer
+    /// pieces where the segment is born, gels or meets the edge of a shadow.
     fn add(&mut self, index: usize, dose: &mut SegmentDose, step: &mut Step) {
         let born_s = self.segments[index].born_s;
         let [from_s, until_s] = [step.ends[0].time_s, step.ends[1].time_s];
         if born_s >= until_s {
             return;
         }
-        let before = self.hidden[index];
-        self.look(index, &step.middle);
-        let (mut fine, mut after) = (born_s > from_s, self.now.hidden);
+        let mut after = 0;
+        self.look(index, step, MIDDLE);
         if self.now.near_shade {
-            self.look(index, step.end());
+            self.look(index, step, END);
             after = self.now.hidden;
-            self.look(index, &step.middle);
+            self.look(index, step, MIDDLE);
         }
-        fine |= before != self.now.hidden || after != self.now.hidden;
+        let same = self.hidden[index] == self.now.hidden && after == self.now.hidden;
         self.hidden[index] = after;
-        let span_s = until_s - from_s;
-        if !fine && !self.gels(dose, span_s) {
-            self.take(dose, from_s - born_s, span_s);
+        let (span_s, age_s) = (until_s - from_s, from_s - born_s);
+        if age_s >= 0.0 && same && !self.gels(dose, span_s) {
+            if mean(&self.now.surface) < BRIGHT * dose.peak_w_m2 {
+                self.take(dose, age_s, span_s);
+                return;
+            }
+            self.take(dose, age_s, span_s * 8.0 / 18.0);
+            for instant in [EARLY, LATE] {
+                self.look(index, step, instant);
+                self.take(dose, age_s, span_s * 5.0 / 18.0);
+            }
             return;
         }
         let piece_s = span_s / FINE as f64;
@@ -115,7 +134,7 @@ impl<'a> Sweep<'a> {
             let start_s = (from_s + piece_s * i as f64).max(born_s);
             let stop_s = from_s + piece_s * (i + 1) as f64;
             if start_s < stop_s {
-                self.look(index, step.fine(i));
+                self.look(index, step, PIECES + i);
                 self.take(dose, start_s - born_s, stop_s - start_s);
             }
         }
@@ -164,73 +183,6 @@ impl<'a> Sweep<'a> {
             *had += gets * span_s;
         }
     }
-}
-
-/// A short piece of the run and the scenes within it, the finer ones made when first asked for.
-struct Step<'a> {
-    ends: [Station; 2],
-    lights: &'a Lights,
-    middle: Scene,
-    end: Option<Scene>,
-    fine: Vec<Scene>,
-}
-
-impl<'a> Step<'a> {
-    fn new(ends: [Station; 2], lights: &'a Lights) -> Self {
-        let mut step = Self { ends, lights, middle: Scene::default(), end: None, fine: vec![] };
-        step.middle = step.scene(0.5);
-        step
-    }
-
-    fn scene(&self, share: f64) -> Scene {
-        // No lamp is switched inside a step: its middle says which are on.
-        let lit_at_s = 0.5 * (self.ends[0].time_s + self.ends[1].time_s);
-        self.lights.scene(&self.ends[0].towards(&self.ends[1], share), lit_at_s)
-    }
-
-    fn end(&mut self) -> &Scene {
-        if self.end.is_none() {
-            self.end = Some(self.scene(1.0));
-        }
-        self.end.as_ref().unwrap_or(&self.middle)
-    }
-
-    fn fine(&mut self, i: usize) -> &Scene {
-        if self.fine.is_empty() {
-            let scene = |i| self.scene((f64::from(i) + 0.5) / FINE as f64);
-            self.fine = (0..FINE as u32).map(scene).collect();
-        }
-        &self.fine[i]
-    }
-}
-
-/// The run between stations, cut where a set of lamps is switched, with the dwell at the end.
-fn spans(run: &Run) -> Vec<[Station; 2]> {
-    let mut switches: Vec<f64> = run.lights.switch_times_s().collect();
-    switches.sort_by(f64::total_cmp);
-    let mut spans = Vec::with_capacity(run.stations.len() + switches.len());
-    let mut cut = |a: &Station, b: &Station| {
-        let span_s = b.time_s - a.time_s;
-        if !(span_s > 0.0 && span_s.is_finite()) {
-            return;
-        }
-        let first = switches.partition_point(|t| *t <= a.time_s);
-        let mut from = *a;
-        for at_s in switches[first..].iter().take_while(|t| **t < b.time_s) {
-            let to = a.towards(b, (at_s - a.time_s) / span_s);
-            spans.push([from, to]);
-            from = to;
-        }
-        spans.push([from, *b]);
-    };
-    for pair in run.stations.windows(2) {
-        cut(&pair[0], &pair[1]);
-    }
-    if let Some(last) = run.stations.last() {
-        let rested = Station { time_s: last.time_s + run.dwell_s, ..*last };
-        cut(last, &rested);
-    }
-    spans
 }
 
 /// How fine to cut, and where to stop looking.
