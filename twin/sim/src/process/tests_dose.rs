@@ -150,15 +150,6 @@ fn misses(stations: &[Station], picks: &[usize], lights: &Lights) -> (f64, f64) 
         let dense = around(segment, 25);
         let want = brute_force(segment, CLEAR.radius_m, &dense, span_s, &pose_at, lights);
         worst_mean = worst_mean.max((doses[pick].mean_j_m2() / mean(&want) - 1.0).abs());
-<<<<<<< HEAD
-        println!(
-            "{pick} {:?} {} {}",
-            doses[pick].surface_j_m2,
-            doses[pick].mean_j_m2(),
-            mean(&want)
-        );
-=======
->>>>>>> h4-light
     }
     (worst, worst_mean)
 }
