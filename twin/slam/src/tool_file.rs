@@ -159,6 +159,8 @@ pub struct LightRingFile {
     pub full_angle_deg: f64,
     /// Strand shaded by the shadow ring: no light nearer to the orifice than this, mm.
     pub shadow_mm: f64,
+    /// Below the orifice, the point that all LEDs aim at, mm; not given: where the shadow ends.
+    pub aim_mm: Option<f64>,
     /// Where it comes from.
     pub source: String,
 }
@@ -247,5 +249,6 @@ fn light_ring(ring: Option<Place<'_>>, checks: &mut Checks) {
     checks.number(ring.get("full_angle_deg"), Rule::AboveUpTo(0.0, 180.0));
     checks.interval(ring.get("intensity_w_sr"), Rule::Positive);
     checks.number(ring.get("shadow_mm"), Rule::NotNegative);
+    checks.number(ring.get("aim_mm"), Rule::NotNegative);
     checks.text(ring.get("source"), "say where it comes from, or \"ours\"");
 }

@@ -126,6 +126,7 @@ pub(super) fn gel_strand(length_m: f64, speed_m_s: f64) -> StrandInput {
             intensity_w_sr: range(0.14, 0.129, 0.14),
             full_angle_rad: 15.0_f64.to_radians(),
             shadow_m: 0.0008,
+            aim_m: 0.002,
         }),
         ..strand(length_m, speed_m_s)
     }

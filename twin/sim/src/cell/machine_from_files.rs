@@ -273,6 +273,7 @@ fn tool(file: &ToolFile) -> Tool {
             intensity_w_sr: triple(ring.intensity_w_sr),
             full_angle_rad: ring.full_angle_deg.to_radians(),
             shadow_m: ring.shadow_mm / 1e3,
+            aim_m: ring.aim_mm.unwrap_or(ring.shadow_mm) / 1e3,
         }),
     }
 }

@@ -102,10 +102,7 @@ fn flow(strand: &Strand, path: &Path, course: &Course) -> Vec<Told<f64>> {
 fn light(job: &Job, strand: &Strand, course: &Course) -> Vec<Told<bool>> {
     let mut told = Vec::new();
     let laid_dark = strand.settings.second_pass_m_s.is_some() && strand.on != crate::cell::On::Air;
-    let has_light = job.cell.tool.light_ring.is_some()
-        || !job.cell.tool.lamps.is_empty()
-        || !job.cell.lamps.is_empty();
-    if has_light && !laid_dark {
+    if super::lighting::any(job) && !laid_dark {
         told.push(Told { from_s: course.time_at_s(strand.settings.lights_after_m), value: true });
     }
     told.extend(switches(strand, course, "light"));

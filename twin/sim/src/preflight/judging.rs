@@ -68,7 +68,12 @@ pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, finding
     if let Some(core_m) = outcome.uncured_core_m {
         let radius_m = outcome.bead_diameter_m.nominal / 2.0;
         let [warn, stop] = limits.uncured_share.map(|share| share * radius_m);
-        this.hold(Code::P305, core_m, stop, Some(warn), findings, |mm| {
+        // A post-cure that goes through leaves nothing to warn of, if the shell holds until then.
+        let post = result.lit.as_ref().and_then(|lit| lit.post_cured_m);
+        let mended = post.is_some_and(|depth_m| depth_m.low >= radius_m * (1.0 - 1e-6));
+        let warn = (!mended).then_some(warn);
+        let core_m = if mended { Interval::exact(core_m.nominal) } else { core_m };
+        this.hold(Code::P305, core_m, stop, warn, findings, |mm| {
             let words = format!(
                 "keeps an uncured core of {mm} in a bead of {:.2} mm radius",
                 radius_m * 1e3
@@ -115,6 +120,11 @@ impl Judge<'_> {
     ) {
         let length_m = self.printed.at_m[self.printed.at_m.len() - 1];
         let (at_m, point) = match code {
+            Code::P305 if self.result.lit.is_some() => {
+                let least = self.result.lit.as_ref().and_then(crate::process::lit::Lit::least);
+                let at_m = least.map_or(length_m / 2.0, |(at_m, _)| at_m.min(length_m));
+                (at_m, self.printed.planned_at(at_m))
+            }
             Code::P304 => (length_m, self.printed.as_planned[self.printed.as_planned.len() - 1]),
             _ => (length_m / 2.0, self.printed.planned_at(length_m / 2.0)),
         };

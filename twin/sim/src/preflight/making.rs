@@ -1,7 +1,7 @@
 //! Strand by strand: what holds it, what the process makes of it.
 
 use super::course::{course, gravity_across};
-use super::judging;
+use super::{judging, lighting};
 use crate::cell::{Job, Join, On, Tool};
 use crate::deposit::{self, Contact, Deposit, Printed};
 use crate::finding::{Findings, Phase};
@@ -14,9 +14,12 @@ use crate::process::drive::Drive;
 use crate::process::fed::{self, Fed};
 use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
+use crate::process::lit::{self, Lit};
 use crate::process::sag::stretched_sag_m;
 use crate::process::soft_rod::{self, Sagged};
-use crate::process::{self, Air, Blown, Course, Ends, Fidelity, Heats, StrandInput, StrandOutcome};
+use crate::process::{
+    self, Air, Blown, Course, Ends, Fidelity, Heats, Setting, StrandInput, StrandOutcome,
+};
 use crate::toolpath::Path;
 
 /// What became of one strand.
@@ -40,6 +43,8 @@ pub struct StrandResult {
     pub fed: Fed,
     /// What the ageing rod makes of it, where the closed form says more than a tenth of the bead.
     pub sagged: Option<Sagged>,
+    /// What the lights made of it; resins only.
+    pub lit: Option<Lit>,
 }
 
 /// Makes every strand, in printing order, and judges it.
@@ -182,11 +187,46 @@ fn make_one(
     };
     let heats = Heats::new(&input, &job.material);
     let mut outcome = process::simulate_with(&input, &job.material, &heats);
+    let lit = shine(job, &course, path, &mut outcome, strand);
     let rod = Rod { input: &input, course: &course, job, heats: &heats, stretch_m };
     let sagged = rod.replaces(&mut outcome);
     let touches = contacts.len();
     let strand = printed.strand;
-    StrandResult { strand, input, outcome, down, touches, start_held, course, fed, sagged }
+    StrandResult { strand, input, outcome, down, touches, start_held, course, fed, sagged, lit }
+}
+
+/// The lights as they stand and shine, in the place of the closed form of a ring.
+fn shine(
+    job: &Job,
+    course: &Course,
+    path: &Path,
+    outcome: &mut StrandOutcome,
+    strand: &crate::cell::Strand,
+) -> Option<Lit> {
+    let Setting::Photopolymer(resin) = &job.material.setting else { return None };
+    if !lighting::any(job) {
+        return None;
+    }
+    let radius_m = outcome.bead_diameter_m.nominal / 2.0;
+    let exposure = lit::Exposure {
+        lights: &|corner| lighting::lights(job, radius_m, corner),
+        radius_m,
+        length_m: path.length_m,
+        second_pass_m_s: strand.settings.second_pass_m_s,
+        post_cure_j_m2: strand.settings.post_cure_j_m2,
+        temperature_k: job.air.temperature_k,
+    };
+    let lit = lit::shine(course, resin, &exposure);
+    let (_, depth_m) = lit.least()?;
+    outcome.uncured_core_m = Some(depth_m.map(|depth_m| (radius_m - depth_m).max(0.0)));
+    outcome.cured_depth_m = Some(depth_m);
+    outcome.area_fraction = lit.area_fraction;
+    outcome.stiffness_fraction = lit.stiffness_fraction;
+    outcome.set_time_s = lit.median_gel_s();
+    let speed_m_s = path.length_m / course.time_at_s(path.length_m).max(f64::MIN_POSITIVE);
+    outcome.set_distance_m = outcome.set_time_s.map(|time_s| time_s * speed_m_s);
+    outcome.laws.extend(["lamps as geometry", "dose on the surface", "dose through the section"]);
+    Some(lit)
 }
 
 /// The ageing rod in the place of the closed form.

@@ -6,6 +6,7 @@ mod bonding;
 mod clear;
 mod course;
 mod judging;
+mod lighting;
 mod making;
 mod program;
 mod rules;

@@ -1,5 +1,6 @@
 //! The rules of the process: what a strand was told, held against what its material and its extruder ask for.
 
+use super::lighting;
 use super::making::StrandResult;
 use crate::cell::{Job, Join, On};
 use crate::deposit::Printed;
@@ -23,6 +24,7 @@ pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, finding
     this.end(findings);
     this.laid_in_light(findings);
     this.nozzle_angle(findings);
+    this.tip_light(findings);
 }
 
 struct Rules<'a> {
@@ -225,6 +227,30 @@ impl Rules<'_> {
                 format!("is lit over {:.0} % of what it lays level on the bed: light thrown back blocks the nozzle", 100.0 * lit_m / level_m),
                 "lay it in the dark and light it on a second pass: `second_pass_mm_s`".to_owned(),
             )
+        });
+    }
+
+    /// P308: light on the nozzle's tip, straight and off the bed.
+    fn tip_light(&self, findings: &mut Findings) {
+        let Setting::Photopolymer(resin) = &self.job.material.setting else { return };
+        let speed_m_s = self.job.strands[self.result.strand].settings.speed_m_s;
+        let bead = (self.result.outcome.hot_diameter_m, speed_m_s);
+        let Some(tip) = lighting::tip_dose(self.job, &self.result.course, resin, bead) else {
+            return;
+        };
+        let limit = self.job.limits.tip_dose_share;
+        let at_m = tip.at_m.min(self.length_m());
+        self.check(Code::P308, at_m, (tip.share, limit), findings, || {
+            let told = format!(
+                "puts {:.2} of a critical exposure ({:.2} to {:.2}) on the nozzle's tip while a bead passes",
+                tip.share.nominal, tip.share.low, tip.share.high
+            );
+            let fix = if tip.clear_after_m.is_finite() {
+                format!("switch the lights on later: `\"lights_after_mm\": {:.1}`", (tip.clear_after_m * 1e3).max(0.1))
+            } else {
+                "shade the tip, aim the lamps lower, or darken the bed".to_owned()
+            };
+            (told, fix)
         });
     }
 

@@ -19,6 +19,8 @@ pub struct LightRing {
     pub full_angle_rad: f64,
     /// Length behind the orifice that no light reaches, m.
     pub shadow_m: f64,
+    /// Below the orifice, the point that all lamps aim at, m.
+    pub aim_m: f64,
 }
 
 impl LightRing {

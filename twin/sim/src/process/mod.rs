@@ -34,6 +34,7 @@ pub mod kinetics;
 pub mod lamp;
 pub mod light;
 pub mod lights;
+pub mod lit;
 pub mod material;
 mod memo;
 pub mod oxygen;

@@ -173,6 +173,8 @@ pub struct StrandOutcome {
     pub end_miss_m: Interval,
     /// Radius left uncured, m; photopolymers only.
     pub uncured_core_m: Option<Interval>,
+    /// Depth cured from the surface, m; photopolymers only.
+    pub cured_depth_m: Option<Interval>,
     /// Share of the area that is solid.
     pub area_fraction: Interval,
     /// Share of the bending stiffness that is solid.
@@ -236,6 +238,7 @@ pub fn simulate_with(input: &StrandInput, material: &Material, heats: &Heats) ->
         sag_set_m: sag_set_m(input, material, bead_diameter_m.nominal, stiffness),
         end_miss_m: end_miss_m(input, material, heats),
         uncured_core_m: shell.core_m,
+        cured_depth_m: shell.depth_m,
         area_fraction: shell.area,
         stiffness_fraction: shell.stiffness,
         youngs_modulus_pa,
@@ -306,18 +309,20 @@ struct Shell {
     area: Interval,
     stiffness: Interval,
     core_m: Option<Interval>,
+    depth_m: Option<Interval>,
 }
 
 fn shell(input: &StrandInput, material: &Material, radius_m: f64) -> Shell {
     let Setting::Photopolymer(resin) = &material.setting else {
         let whole = Interval::exact(1.0);
-        return Shell { area: whole, stiffness: whole, core_m: None };
+        return Shell { area: whole, stiffness: whole, core_m: None, depth_m: None };
     };
     let depth = Corner::interval(|corner| depth_m(input, resin, corner));
     Shell {
         area: depth.map(|d| shell_area_fraction(d, radius_m)),
         stiffness: depth.map(|d| shell_stiffness_fraction(d, radius_m)),
         core_m: Some(depth.map(|d| uncured_core_m(d, radius_m))),
+        depth_m: Some(depth),
     }
 }
 

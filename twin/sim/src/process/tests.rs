@@ -82,6 +82,7 @@ fn kirkman_ring() -> LightRing {
         intensity_w_sr: Interval::new(0.129, 0.129, 0.14),
         full_angle_rad: 15.0_f64.to_radians(),
         shadow_m: 0.0,
+        aim_m: 0.002,
     }
 }
 

@@ -22,6 +22,7 @@ pub(super) fn ring(aim_m: f64) -> RingPlace {
         intensity_w_sr: Interval::new(0.129, 0.129, 0.14),
         full_angle_rad: 15.0_f64.to_radians(),
         shadow_m: 0.8e-3,
+        aim_m: 0.002,
     };
     RingPlace::of(&ring, aim_m)
 }

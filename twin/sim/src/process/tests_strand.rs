@@ -134,6 +134,7 @@ fn ring() -> LightRing {
         intensity_w_sr: range(0.129, 0.11, 0.14),
         full_angle_rad: 15.0_f64.to_radians(),
         shadow_m: 0.0005,
+        aim_m: 0.002,
     }
 }
 

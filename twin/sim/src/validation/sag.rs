@@ -209,6 +209,7 @@ fn drepp_gravity(material: &Material) -> Case {
             intensity_w_sr: Interval::exact(0.14),
             full_angle_rad: 15_f64.to_radians(),
             shadow_m: zone_m,
+            aim_m: 0.002,
         };
         let input = StrandInput {
             light: Some(lamp),

@@ -34,6 +34,7 @@ fn on_the_library(look: impl FnOnce(&[Case])) {
             intensity_w_sr: Interval::new(nominal, one, other),
             full_angle_rad: ring.full_angle_deg.to_radians(),
             shadow_m: ring.shadow_mm * 1e-3,
+            aim_m: 0.002,
         }),
         deflection_m: 1e-3,
     };

@@ -1,0 +1,143 @@
+//! The lights of the cell as the process wants them, and what they do to the nozzle's tip.
+
+use crate::cell::{Job, Lamp as CellLamp};
+use crate::interval::Interval;
+use crate::process::bed_light::{Tip, lights_on_after_m, tip_limit_w_m2};
+use crate::process::history::Corner;
+use crate::process::lamp::{Lamp, Lobe, RingPlace};
+use crate::process::lights::{ALWAYS, Carrier, LampSet, Lights};
+use crate::process::shade::Shade;
+use crate::process::{Course, Photopolymer};
+use crate::shape::Shape;
+
+/// Share of the light that the bed throws back. Nobody publishes it: a dark one to a bright one; ours.
+const ALBEDO: [f64; 3] = [0.3, 0.05, 0.8];
+/// The disc that shades the orifice stands this far above it, as a share of the lamps' height; ours.
+const SHADE_SHARE: f64 = 0.25;
+
+/// Whether anything shines in the cell.
+pub(super) fn any(job: &Job) -> bool {
+    job.cell.tool.light_ring.is_some()
+        || !job.cell.tool.lamps.is_empty()
+        || !job.cell.lamps.is_empty()
+}
+
+/// All lamps, at a corner of their intensity, and what shades them.
+pub(super) fn lights(job: &Job, radius_m: f64, corner: Corner) -> Lights {
+    let (lamps, shades) = on_tool(job, radius_m, corner);
+    let room = job.cell.lamps.iter().map(|lamp| of(lamp, corner)).collect();
+    let set = |carrier, lamps| LampSet { carrier, lamps, on_s: vec![ALWAYS] };
+    Lights {
+        sets: vec![set(Carrier::Tool, lamps), set(Carrier::Room, room)],
+        shades: shades.into_iter().map(|shade| (Carrier::Tool, shade)).collect(),
+    }
+}
+
+fn of(lamp: &CellLamp, corner: Corner) -> Lamp {
+    Lamp {
+        at: lamp.at,
+        along: lamp.along,
+        peak_w_sr: corner.helpful(lamp.peak_w_sr),
+        full_angle_rad: lamp.full_angle_rad,
+        lobe: Lobe::Gaussian,
+    }
+}
+
+fn on_tool(job: &Job, radius_m: f64, corner: Corner) -> (Vec<Lamp>, Vec<Shade>) {
+    let tool = &job.cell.tool;
+    let mut lamps: Vec<Lamp> = tool.lamps.iter().map(|lamp| of(lamp, corner)).collect();
+    let mut shades = Vec::new();
+    if let Some(ring) = &tool.light_ring {
+        let place = RingPlace::of(ring, ring.aim_m);
+        let peak_w_sr = corner.helpful(ring.intensity_w_sr);
+        lamps.extend(place.lamps(peak_w_sr, ring.full_angle_rad, Lobe::Gaussian));
+        shades.push(place.shadow(ring.shadow_m, radius_m, SHADE_SHARE * place.height_m));
+    }
+    // Parts shade the lamps told one by one; those of a ring are shaded as its shadow says.
+    if !tool.lamps.is_empty() && tool.light_ring.is_none() {
+        let parts = tool.parts.iter().flat_map(|part| &part.shapes);
+        shades.extend(parts.filter_map(shade).filter(|shade| {
+            let (middle, ball_m) = shade.ball();
+            tool.lamps.iter().all(|lamp| (lamp.at - middle).norm() > ball_m)
+        }));
+    }
+    (lamps, shades)
+}
+
+fn shade(shape: &Shape) -> Option<Shade> {
+    match shape {
+        Shape::Cone { from, to, radius_from_m, radius_to_m } => Some(Shade::Cone {
+            from: *from,
+            to: *to,
+            radius_from_m: *radius_from_m,
+            radius_to_m: *radius_to_m,
+        }),
+        Shape::Capsule { a, b, radius_m } => {
+            Some(Shade::Capsule { from: *a, to: *b, radius_m: *radius_m })
+        }
+        _ => None,
+    }
+}
+
+/// Dose at the rim of the orifice while one bead passes, over the critical exposure, as the lights go on, and the
+/// length printed after which they may.
+pub(super) struct TipDose {
+    /// The dose's share.
+    pub(super) share: Interval,
+    /// Where on the strand, m.
+    pub(super) at_m: f64,
+    /// From which length on the lights would do no harm, m; infinite: nowhere.
+    pub(super) clear_after_m: f64,
+}
+
+/// The worst moment with lights on; `None` where there are none.
+pub(super) fn tip_dose(
+    job: &Job,
+    course: &Course,
+    resin: &Photopolymer,
+    (diameter_m, speed_m_s): (f64, f64),
+) -> Option<TipDose> {
+    let length_m = course.length_m();
+    let lit: Vec<_> = course
+        .stations
+        .iter()
+        .filter(|station| station.at_m <= length_m && course.lit_at(station.time_s))
+        .collect();
+    let height = |station: &&&crate::process::Station| {
+        let place = station.part_from_tool.translation.vector;
+        (job.bed_from_part * crate::pose::Point::from(place)).z
+    };
+    let nearest = lit.iter().min_by(|a, b| height(a).total_cmp(&height(b)))?;
+    let bed_m = height(&nearest).max(1e-5);
+    let rim_m = 0.5 * job.cell.tool.orifice_m;
+    let residence_s = diameter_m / speed_m_s;
+    let share_at = |corner: Corner, albedo: f64, bed_m: f64| {
+        let (lamps, shades) = on_tool(job, 0.5 * diameter_m, corner);
+        let tip = Tip { rim_m, lamps: &lamps, shades: &shades };
+        let light = tip.light(bed_m, albedo);
+        // Bright lamps are the bad end here.
+        let critical = match corner {
+            Corner::Nominal => resin.critical_exposure_j_m2.nominal,
+            Corner::Fast => resin.critical_exposure_j_m2.low,
+            Corner::Slow => resin.critical_exposure_j_m2.high,
+        };
+        (light.direct_w_m2 + light.reflected_w_m2) * residence_s / critical
+    };
+    let share = Interval::new(
+        share_at(Corner::Nominal, ALBEDO[0], bed_m),
+        share_at(Corner::Slow, ALBEDO[1], bed_m),
+        share_at(Corner::Fast, ALBEDO[2], bed_m),
+    );
+    let limit = job.limits.tip_dose_share;
+    let clear_after_m = if share.nominal <= limit {
+        0.0
+    } else {
+        let (lamps, shades) = on_tool(job, 0.5 * diameter_m, Corner::Nominal);
+        let tip = Tip { rim_m, lamps: &lamps, shades: &shades };
+        let limit_w_m2 = tip_limit_w_m2(limit, resin.critical_exposure_j_m2.nominal, residence_s);
+        let clear_m = tip.clear_m(limit_w_m2, ALBEDO[0], 0.2);
+        let rise = (job.bed_from_part * nearest.tangent).z;
+        nearest.at_m + lights_on_after_m(clear_m, bed_m, rise)
+    };
+    Some(TipDose { share, at_m: nearest.at_m, clear_after_m })
+}

@@ -1,0 +1,280 @@
+//! What the lights make of a strand along its length: dose, cured shell, gel age, degree of cure.
+
+use super::course::Course;
+use super::cured::{self, Cured, Exposed};
+use super::dose::{AZIMUTHS, Run, SegmentDose, Strand, add_run, segments};
+use super::history::Corner;
+use super::kamal::Kamal;
+use super::kinetics::Kinetics;
+use super::lights::{Lights, Station};
+use super::material::{KineticsLaw, Photopolymer};
+use super::through::{Inside, Section};
+use crate::interval::Interval;
+
+/// Most segments light is summed on; longer strands are cut more coarsely.
+const MOST_SEGMENTS: usize = 240;
+/// Temperature to which exposures and rates refer, K.
+const REFERENCE_K: f64 = 298.15;
+
+/// Light and what it leaves, segment by segment; intervals at corners of lamps, critical exposure and
+/// penetration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lit {
+    /// Middle of each segment, m.
+    pub at_m: Vec<f64>,
+    /// Mean dose on its surface, J/m².
+    pub dose_j_m2: Vec<Interval>,
+    /// Depth cured at its least lit side, m.
+    pub depth_m: Vec<Interval>,
+    /// Age at which its surface gels, s; infinite if never.
+    pub gel_s: Vec<Interval>,
+    /// Share of the section cured, mean of the length.
+    pub area_fraction: Interval,
+    /// Share of the bending stiffness cured, mean of the length.
+    pub stiffness_fraction: Interval,
+    /// Depth after the post-cure that the job declares, least of the length, m.
+    pub post_cured_m: Option<Interval>,
+    /// Greatest degree of cure at the surface of the middle segment, and when it began, s; where kinetics are known.
+    pub cure: Option<Cured>,
+}
+
+/// What is asked of the lights.
+#[derive(Clone, Copy)]
+pub struct Exposure<'a> {
+    /// Lamps and shades at a corner of the lamps.
+    pub lights: &'a dyn Fn(Corner) -> Lights,
+    /// Radius of the strand, m.
+    pub radius_m: f64,
+    /// Length of the strand, m.
+    pub length_m: f64,
+    /// Speed of a second pass with the lights on, m/s.
+    pub second_pass_m_s: Option<f64>,
+    /// Dose of a post-cure from all around, J/m².
+    pub post_cure_j_m2: Option<f64>,
+    /// Temperature of the strand, K.
+    pub temperature_k: f64,
+}
+
+/// Light on a strand and what it cures. Nominal and slow corners take light inside the strand as bent square to its
+/// surface (Jacobs), the fast one as straight: the truth lies between.
+pub fn shine(course: &Course, resin: &Photopolymer, exposure: &Exposure) -> Lit {
+    let stations = stations(course, exposure.length_m);
+    let corners = [Corner::Nominal, Corner::Fast, Corner::Slow];
+    let made = corners.map(|corner| at_corner(course, resin, exposure, &stations, corner));
+    let n = made[0].len();
+    let of = |value: &dyn Fn(&Made) -> f64| -> Vec<Interval> {
+        let at = |k: usize| made.each_ref().map(|corner| value(&corner[k]));
+        (0..n).map(at).map(|[nominal, fast, slow]| Interval::new(nominal, fast, slow)).collect()
+    };
+    let mean = |value: &dyn Fn(&Made) -> f64| {
+        let [nominal, fast, slow] =
+            made.each_ref().map(|corner| corner.iter().map(value).sum::<f64>() / n.max(1) as f64);
+        Interval::new(nominal, fast, slow)
+    };
+    let post_cured_m = exposure.post_cure_j_m2.map(|_| {
+        let least = |corner: &Vec<Made>| {
+            corner.iter().map(|m| m.post_cured_m).fold(exposure.radius_m, f64::min)
+        };
+        let [nominal, fast, slow] = made.each_ref().map(least);
+        Interval::new(nominal, fast, slow)
+    });
+    Lit {
+        at_m: middles(&stations, exposure.length_m, n),
+        dose_j_m2: of(&|m| m.dose_j_m2),
+        depth_m: of(&|m| m.depth_m),
+        gel_s: of(&|m| m.gel_s),
+        area_fraction: mean(&|m| m.area),
+        stiffness_fraction: mean(&|m| m.stiffness),
+        post_cured_m,
+        cure: resin.kinetics.and_then(|law| {
+            let middle = made[0].get(n / 2)?;
+            degree(law, resin, middle, exposure.temperature_k)
+        }),
+    }
+}
+
+/// One segment at one corner.
+#[derive(Debug, Clone, Copy)]
+struct Made {
+    dose_j_m2: f64,
+    depth_m: f64,
+    gel_s: f64,
+    area: f64,
+    stiffness: f64,
+    post_cured_m: f64,
+    lit_s: f64,
+    irradiance_w_m2: f64,
+}
+
+fn at_corner(
+    course: &Course,
+    resin: &Photopolymer,
+    exposure: &Exposure,
+    stations: &[Station],
+    corner: Corner,
+) -> Vec<Made> {
+    let mut lights = (exposure.lights)(corner);
+    for set in &mut lights.sets {
+        set.on_s = course.lit();
+    }
+    let critical_j_m2 = corner.harmful(resin.critical_exposure_j_m2);
+    let strand = Strand { radius_m: exposure.radius_m, critical_j_m2, azimuths: AZIMUTHS };
+    let run = Run { stations, dwell_s: course.dwell_s, lights: &lights };
+    let own = own_segments(stations, exposure.length_m, course);
+    let mut doses = vec![SegmentDose::dark(AZIMUTHS); own.len()];
+    add_run(&own, &mut doses, &run, &strand);
+    if let Some(speed_m_s) = exposure.second_pass_m_s {
+        let again = second_pass(stations, course, speed_m_s);
+        for set in &mut lights.sets {
+            set.on_s = vec![super::lights::ALWAYS];
+        }
+        let run = Run { stations: &again, dwell_s: 0.0, lights: &lights };
+        add_run(&own, &mut doses, &run, &strand);
+    }
+    let penetration_m = corner.helpful(resin.penetration_m);
+    let inside = if corner == Corner::Fast { Inside::Straight } else { Inside::Radial };
+    let section = |doses: &[f64]| {
+        let radius_m = exposure.radius_m;
+        Section { radius_m, penetration_m, critical_j_m2, doses_j_m2: doses, inside }.cured()
+    };
+    doses
+        .iter()
+        .map(|dose| {
+            let given =
+                if inside == Inside::Straight { &dose.beam_j_m2 } else { &dose.surface_j_m2 };
+            let cured = section(given);
+            let post_cured_m = exposure.post_cure_j_m2.map_or(0.0, |extra| {
+                let all: Vec<f64> = dose.surface_j_m2.iter().map(|own| own + extra).collect();
+                let radial = Section {
+                    radius_m: exposure.radius_m,
+                    penetration_m,
+                    critical_j_m2,
+                    doses_j_m2: &all,
+                    inside: Inside::Radial,
+                };
+                radial.cured().least_depth_m
+            });
+            Made {
+                dose_j_m2: dose.mean_j_m2(),
+                depth_m: cured.least_depth_m,
+                gel_s: dose.mean_gel_s,
+                area: cured.area_fraction,
+                stiffness: cured.stiffness_fraction,
+                post_cured_m,
+                lit_s: dose.lit_s(),
+                irradiance_w_m2: dose.peak_w_m2,
+            }
+        })
+        .collect()
+}
+
+/// Degree of cure at the surface of a segment that was lit evenly until it had its dose.
+fn degree(
+    law: KineticsLaw,
+    resin: &Photopolymer,
+    made: &Made,
+    temperature_k: f64,
+) -> Option<Cured> {
+    if !(made.irradiance_w_m2 > 0.0) || !made.gel_s.is_finite() {
+        return None;
+    }
+    let kinetics = Kinetics {
+        kamal: Kamal {
+            m: law.m,
+            n: law.n,
+            k1_per_s: 1.0,
+            k2_per_s: law.k2_over_k1,
+            gel: law.gel,
+            max: law.max,
+        },
+        b: law.b,
+        activation_j_mol: resin.exposure_activation_j_mol.map_or(0.0, |ea| ea.nominal),
+        reference_w_m2: law.measured_at_w_m2.unwrap_or(made.irradiance_w_m2),
+        reference_k: REFERENCE_K,
+    }
+    .calibrated(resin.critical_exposure_j_m2.nominal);
+    let gel_lit_s = resin.critical_exposure_j_m2.nominal / made.irradiance_w_m2;
+    let from_s = (made.gel_s - gel_lit_s).max(0.0);
+    let at = |age_s: f64, irradiance_w_m2: f64| Exposed { age_s, irradiance_w_m2, temperature_k };
+    let to_s = from_s + made.lit_s;
+    let history = [
+        at(0.0, 0.0),
+        at(from_s, 0.0),
+        at(from_s, made.irradiance_w_m2),
+        at(to_s, made.irradiance_w_m2),
+        at(to_s, 0.0),
+    ];
+    Some(cured::cure(&kinetics, &kinetics.kamal.curve(), &history, None))
+}
+
+/// The nozzle's way as the light laws want it, at most [`MOST_SEGMENTS`] steps along the strand, and what it travels
+/// past the end.
+fn stations(course: &Course, length_m: f64) -> Vec<Station> {
+    let every = course.stations.len().div_ceil(MOST_SEGMENTS).max(1);
+    let last = course.stations.len() - 1;
+    course
+        .stations
+        .iter()
+        .enumerate()
+        .filter(|(k, station)| {
+            k % every == 0 || *k == last || (station.at_m - length_m).abs() < 1e-9
+        })
+        .map(|(_, station)| Station {
+            time_s: station.time_s,
+            point: station.point,
+            part_from_tool: station.part_from_tool,
+            part_from_room: station.part_from_room,
+        })
+        .collect()
+}
+
+/// Segments of the strand itself, without what the nozzle travels past its end.
+fn own_segments(stations: &[Station], length_m: f64, course: &Course) -> Vec<super::dose::Segment> {
+    let end_s = course.time_at_s(length_m) + 1e-9;
+    let mut own = segments(stations);
+    own.retain(|segment| segment.born_s < end_s);
+    own
+}
+
+fn middles(stations: &[Station], length_m: f64, n: usize) -> Vec<f64> {
+    let mut at_m = 0.0;
+    let mut middles = Vec::with_capacity(n);
+    for pair in stations.windows(2).take(n) {
+        let step_m = (pair[1].point - pair[0].point).norm();
+        middles.push((at_m + 0.5 * step_m).min(length_m));
+        at_m += step_m;
+    }
+    middles
+}
+
+/// The same way once more, at a steady speed, after the first pass.
+fn second_pass(stations: &[Station], course: &Course, speed_m_s: f64) -> Vec<Station> {
+    let mut time_s = stations.last().map_or(0.0, |last| last.time_s) + course.dwell_s;
+    let mut again = Vec::with_capacity(stations.len());
+    for (k, station) in stations.iter().enumerate() {
+        if k > 0 {
+            time_s += (station.point - stations[k - 1].point).norm() / speed_m_s;
+        }
+        again.push(Station { time_s, ..*station });
+    }
+    again
+}
+
+impl Lit {
+    /// The least cured place: its arc length, m, and the depth there.
+    pub fn least(&self) -> Option<(f64, Interval)> {
+        let least = (0..self.depth_m.len())
+            .min_by(|&a, &b| self.depth_m[a].nominal.total_cmp(&self.depth_m[b].nominal))?;
+        Some((self.at_m[least], self.depth_m[least]))
+    }
+
+    /// Age at which half of the strand's length gels sooner, s.
+    pub fn median_gel_s(&self) -> Interval {
+        let median = |end: fn(&Interval) -> f64| {
+            let mut ages: Vec<f64> = self.gel_s.iter().map(end).collect();
+            ages.sort_by(f64::total_cmp);
+            ages.get(ages.len() / 2).copied().unwrap_or(f64::INFINITY)
+        };
+        Interval::new(median(|age| age.nominal), median(|age| age.low), median(|age| age.high))
+    }
+}
