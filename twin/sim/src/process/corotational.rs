@@ -88,7 +88,7 @@ const LEAST_STEP: f64 = 1.0 / 8192.0;
 /// Rest shape of a rod, `cuts` elements (1 to 256) to a piece.
 ///
 /// Second order in the elements' length (weight in lumps at the nodes); O(n) an iteration, at most 1500 iterations
-/// in all. [`hang_fine`] takes the error of second and fourth order out.
+/// in all. [`hang_fine`] takes the terms in h² and h⁴ out.
 ///
 /// # Errors
 /// [`HangError`] where a number means nothing or no equilibrium is found.
@@ -113,7 +113,7 @@ pub fn hang(rod: &HeavyRod, cuts: u32) -> Result<Hanging, HangError> {
     Ok(newton.hanging(iterations))
 }
 
-/// Rest shape from three finenesses, `cuts`, twice and four times that, by Richardson: sixth order.
+/// Rest shape from three finenesses, `cuts`, twice and four times that, by Richardson: the terms in h² and h⁴ taken out.
 ///
 /// # Errors
 /// As [`hang`].

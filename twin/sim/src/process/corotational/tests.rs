@@ -154,7 +154,7 @@ fn smay_span() {
 }
 
 #[test]
-fn second_order_in_elements_sixth_by_richardson() {
+fn second_order_in_elements_and_richardson() {
     let exact = heavy_elastica(8.0, 2000);
     let pieces = rod(8.0, 4);
     let held = cantilever(&pieces, 0.0, [0.0, -1.0]);

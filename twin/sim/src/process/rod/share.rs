@@ -27,11 +27,17 @@ pub(super) struct Share {
 }
 
 /// Flow of a section over the step; `arm_m` is how much farther on the nozzle is at the middle of its flow.
-pub(super) fn flow(strand: &Strand, section: &mut Section, time: &Interval, hold: Hold) -> Share {
+pub(super) fn flow(
+    strand: &Strand,
+    section: &mut Section,
+    time: &Interval,
+    hold: Hold,
+    share: &mut Share,
+) {
     let ageing = &strand.ageing;
     let from_s = (time.from_s - section.birth_s).max(0.0);
     let to_s = time.to_s - section.birth_s;
-    let mut share = Share { yields: 1.0, ..Share::default() };
+    (share.flow, share.stretch, share.arm_m, share.yields) = (0.0, 0.0, 0.0, 1.0);
     if let Some(curvature) = ageing.free_curvature_per_m {
         let (was, is) = (curvature(section.element, from_s), curvature(section.element, to_s));
         for i in 0..2 {
@@ -39,7 +45,7 @@ pub(super) fn flow(strand: &Strand, section: &mut Section, time: &Interval, hold
         }
     }
     if from_s >= ageing.rigid_s {
-        return share;
+        return;
     }
     let middle_s = 0.5 * (from_s + to_s);
     let middle = (ageing.compliance_per_pa)(section.element, middle_s);
@@ -55,7 +61,6 @@ pub(super) fn flow(strand: &Strand, section: &mut Section, time: &Interval, hold
         let speed_m_s = (time.to_m - time.from_m) / (time.to_s - time.from_s);
         share.arm_m = speed_m_s * (flows_s - 0.5 * (time.from_s + time.to_s));
     }
-    share
 }
 
 pub(super) fn spring(strand: &Strand, section: &Section, time: &Interval, share: &mut Share) {
@@ -66,6 +71,7 @@ pub(super) fn spring(strand: &Strand, section: &Section, time: &Interval, share:
     };
     let to_s = time.to_s - section.birth_s;
     share.reach_m = time.to_m - section.at_m;
+    (share.was, share.was_pull, share.newborn) = ([0.0; 2], 0.0, 0.0);
     let softness = match strand.ageing.elastic {
         Elastic::Total => springs(to_s),
         Elastic::Rate => {

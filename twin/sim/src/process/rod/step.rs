@@ -53,12 +53,11 @@ pub(super) fn step(
         ending = determinate(hold).then(|| by_equilibrium(hold, &far, time.to_m));
     }
     let newest = pieces.last().map_or([0.0; 3], |p| weight(strand, p.element, gravity));
-    room.shares.clear();
-    for (i, section) in sections.iter_mut().enumerate() {
-        let mut share = flow(strand, section, time, hold);
+    room.shares.resize(sections.len(), Share::default());
+    for (i, (section, share)) in sections.iter_mut().zip(&mut room.shares).enumerate() {
+        flow(strand, section, time, hold, share);
         if share.flow == 0.0 && strand.ageing.modulus_pa.is_none() {
-            room.shares.push(share); // rigid: its load does nothing
-            continue;
+            continue; // rigid: its load does nothing
         }
         // the nozzle is farther on, or less far, when this section flows than in the middle of the step
         let (arm_m, on_m) = (middle_m - section.at_m, share.arm_m);
@@ -70,9 +69,8 @@ pub(super) fn step(
         share.arm_m = arm_m + on_m;
         if strand.ageing.modulus_pa.is_some() {
             share.end = room.end[i];
-            spring(strand, section, time, &mut share);
+            spring(strand, section, time, share);
         }
-        room.shares.push(share);
     }
     let carry = match room.before {
         Some((_, before_s)) => (time.to_s - time.from_s) / (time.to_s - time.from_s + before_s),
@@ -199,24 +197,31 @@ fn finish(
 ) -> Sums {
     let mut sums = Sums::default();
     let rate = strand.ageing.elastic == Elastic::Rate;
+    let springs = strand.ageing.modulus_pa.is_some();
     for (section, share) in sections.iter_mut().zip(shares) {
         let arm_m = end_m - section.at_m;
         let flow = share.flow * share.yields;
-        let mut last = ([0.0; 2], share.end.pull + end.pull);
-        for i in 0..2 {
-            let moment = share.load.moment[i] + now.moment[i] + now.shear[i] * share.arm_m;
-            section.set[i] += flow * moment;
-            last.0[i] = share.end.moment[i] + share.reach_m * end.shear[i] + end.moment[i];
-            let sprung = share.spring * (last.0[i] - share.was[i] - share.newborn * now.moment[i]);
-            section.curvature[i] = section.set[i] + sprung;
-        }
-        section.set_strain += share.stretch * share.yields * (share.load.pull + now.pull);
-        let sprung = last.1 - share.was_pull - share.newborn * now.pull;
-        section.strain = section.set_strain + share.spring_stretch * sprung;
-        section.last = Some(last);
-        if rate {
-            section.set = section.curvature;
-            section.set_strain = section.strain;
+        if flow == 0.0 && share.spring == 0.0 && !springs {
+            section.curvature = section.set;
+            section.strain = section.set_strain;
+        } else {
+            let mut last = ([0.0; 2], share.end.pull + end.pull);
+            for i in 0..2 {
+                let moment = share.load.moment[i] + now.moment[i] + now.shear[i] * share.arm_m;
+                section.set[i] += flow * moment;
+                last.0[i] = share.end.moment[i] + share.reach_m * end.shear[i] + end.moment[i];
+                let sprung =
+                    share.spring * (last.0[i] - share.was[i] - share.newborn * now.moment[i]);
+                section.curvature[i] = section.set[i] + sprung;
+            }
+            section.set_strain += share.stretch * share.yields * (share.load.pull + now.pull);
+            let sprung = last.1 - share.was_pull - share.newborn * now.pull;
+            section.strain = section.set_strain + share.spring_stretch * sprung;
+            section.last = Some(last);
+            if rate {
+                section.set = section.curvature;
+                section.set_strain = section.strain;
+            }
         }
         for i in 0..2 {
             let turn = section.weight_m * section.curvature[i];
