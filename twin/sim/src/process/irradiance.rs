@@ -54,6 +54,8 @@ struct View<'a> {
     axis: [f64; 2],
     along_m: f64,
     radius_m: f64,
+    /// Shades that may stand in between.
+    near: u64,
 }
 
 impl Irradiance {
@@ -91,17 +93,22 @@ impl Irradiance {
             }
             let across = |v: &Vector| [v.dot(&segment.across), v.dot(&other)];
             let (to_m, axis) = (across(&to), across(&lamp.along));
-            let view = View { seen, to_m, distance2, axis, along_m, radius_m };
+            let mut view = View { seen, to_m, distance2, axis, along_m, radius_m, near: 0 };
             let mut visible = [1.0; MOST];
             let mut share = 1.0;
-            if scene.may_shade(lamp.at, segment.middle, radius_m) {
+            let near = scene.near_shades(lamp.at, segment.middle, radius_m);
+            if near != 0 {
                 self.near_shade = true;
+                view.near = near;
                 let mark = index * round.count() + 1;
                 share = self.hide(&mut visible, scene, segment, round, &view, mark);
             }
+            if share == 0.0 {
+                continue;
+            }
             view.light(&mut self.surface, &visible, round);
             let cosine = along_m / distance_m;
-            if share > 0.0 && cosine >= seen.least_cosine {
+            if cosine >= seen.least_cosine {
                 let per_m = lamp.intensity_w_sr(cosine) * share / (distance2 * distance_m);
                 self.add_beam(to_m, round, per_m);
             }
@@ -126,7 +133,7 @@ impl Irradiance {
             }
             facing += 1.0;
             let point = segment.middle + (segment.across * *cos + other * *sin) * view.radius_m;
-            if scene.is_blocked(view.seen.lamp.at, point) {
+            if scene.is_blocked(view.near, view.seen.lamp.at, point) {
                 visible[azimuth] = 0.0;
                 let mark = (mark + azimuth) as u64;
                 self.hidden = self.hidden.wrapping_add(mark.wrapping_mul(0x9E37_79B9_7F4A_7C15));

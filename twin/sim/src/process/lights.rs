@@ -137,17 +137,22 @@ impl Lights {
 }
 
 impl Scene {
-    /// Whether some shade may stand between a lamp and a ball; exact tests only where this says so.
-    pub(super) fn may_shade(&self, lamp: Point, centre: Point, radius_m: f64) -> bool {
-        self.shades.iter().any(|(_, at, size_m)| {
+    /// Which shades may stand between a lamp and a ball, a bit each (all from the 64th on share the last).
+    ///
+    /// Exact tests only where this says so.
+    pub(super) fn near_shades(&self, lamp: Point, centre: Point, radius_m: f64) -> u64 {
+        let near = |(_, at, size_m): &(Shade, Point, f64)| {
             let room = size_m + radius_m;
             to_line_m2(*at, lamp, centre) < room * room
-        })
+        };
+        let bits = self.shades.iter().enumerate().filter(|(_, shade)| near(shade));
+        bits.fold(0, |bits, (i, _)| bits | 1 << i.min(63))
     }
 
-    /// Whether a shade stands between a lamp and a point.
-    pub(super) fn is_blocked(&self, lamp: Point, point: Point) -> bool {
-        self.shades.iter().any(|(shade, ..)| shade.blocks(lamp, point))
+    /// Whether one of the shades marked stands between a lamp and a point.
+    pub(super) fn is_blocked(&self, marked: u64, lamp: Point, point: Point) -> bool {
+        let mut shades = self.shades.iter().enumerate();
+        shades.any(|(i, (shade, ..))| marked >> i.min(63) & 1 == 1 && shade.blocks(lamp, point))
     }
 
     /// Whether a ball may receive more than `floor_w_m2` from any lamp.

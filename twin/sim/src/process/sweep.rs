@@ -67,6 +67,7 @@ struct Sweep<'a> {
     round: Azimuths,
     strand: &'a Strand,
     now: Irradiance,
+    spare: Irradiance,
     memo: Memo,
     /// What was hidden from each segment when it was last looked at.
     hidden: Vec<u64>,
@@ -80,6 +81,7 @@ impl<'a> Sweep<'a> {
             round: Azimuths::new(azimuths),
             strand,
             now: Irradiance::dark(azimuths),
+            spare: Irradiance::dark(azimuths),
             memo: Memo::new(lights),
             hidden: vec![0; segments.len()],
             looks: 0,
@@ -110,9 +112,11 @@ impl<'a> Sweep<'a> {
         let mut after = 0;
         self.look(index, step, MIDDLE);
         if self.now.near_shade {
+            // The middle is wanted again: it steps aside while the end is looked at.
+            std::mem::swap(&mut self.now, &mut self.spare);
             self.look(index, step, END);
             after = self.now.hidden;
-            self.look(index, step, MIDDLE);
+            std::mem::swap(&mut self.now, &mut self.spare);
         }
         let same = self.hidden[index] == self.now.hidden && after == self.now.hidden;
         self.hidden[index] = after;
