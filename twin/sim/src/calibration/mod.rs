@@ -5,7 +5,7 @@
 //! prints, and gives each [`Parameter`] its most probable value with a 90 % interval. Predictions are
 //! those of [`crate::process`]; nothing here knows a law of its own but how a free end contracts.
 //!
-//! Cost: one `simulate` per strand, parameter and step; some ten milliseconds for six strands.
+//! Cost: one `simulate` per strand, parameter and step; eight to thirty milliseconds for three strands.
 
 mod fit;
 mod known;

@@ -2,7 +2,8 @@
 //!
 //! Measurements are the model's own with 3 % noise, and the fit is told so: this tests the statistics, not
 //! the laws. A truth drawn from the priors must be held in 90 of 100 whatever the prints say; one that stands
-//! fixed off the middle only where the prints outweigh the prior, hence the three free hangs.
+//! fixed off the middle only where the prints outweigh the prior, hence the three free hangs. Over 2000 seeds
+//! instead of 100: 89 to 92 % of fixed truths, 88 to 91 % of drawn ones (the ridge is not the whole posterior).
 
 use std::collections::BTreeMap;
 
