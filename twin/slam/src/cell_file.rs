@@ -113,6 +113,8 @@ pub struct BedFile {
     pub pose: PoseFile,
     /// Width, depth, thickness, mm.
     pub size_mm: [f64; 3],
+    /// Share of ultraviolet light that it throws back: nominal, low, high.
+    pub albedo: Option<[f64; 3]>,
     /// Hold of the deposit on the bed, MPa: nominal, low, high.
     pub adhesion_mpa: [f64; 3],
     /// Mass of the bed and all that holds it on the flange, kg; asked for where it rides there.
@@ -172,6 +174,7 @@ pub fn parse(source: &Source) -> Result<CellFile, Vec<Diagnostic>> {
             pose(bed.get("pose"), checks);
             checks.numbers(bed.get("size_mm"), Rule::Positive);
             checks.interval(bed.get("adhesion_mpa"), Rule::NotNegative);
+            checks.interval(bed.get("albedo"), Rule::FromTo(0.0, 1.0));
             checks.number(bed.get("mass_kg"), Rule::Positive);
         }
         let obstacles = cell.get("obstacle").map(Place::items).unwrap_or_default();

@@ -352,8 +352,6 @@ pub struct Limits {
     pub bead_band: f64,
     /// Least and largest speed of the nozzle over that of a free strand.
     pub draw_ratio: [f64; 2],
-    /// Least strength of a bond, as a share of the strength along the strand.
-    pub bond_share: f64,
     /// Largest dose at the nozzle's tip while one bead passes, as a share of the critical exposure.
     pub tip_dose_share: f64,
     /// Largest angle between the nozzle's axis and the strand, rad.

@@ -190,6 +190,8 @@ pub struct Bed {
     pub pose: Pose,
     /// Width, depth, thickness, m.
     pub size_m: [f64; 3],
+    /// Share of ultraviolet light that it throws back; `None`: nobody knows.
+    pub albedo: Option<Interval>,
     /// Mass with all that holds it on the flange, kg, where known.
     pub mass_kg: Option<f64>,
     /// Hold of the deposit on it, Pa.

@@ -53,6 +53,7 @@ pub fn machine(parts: &Parts<'_>) -> Result<Cell, String> {
         bed: Bed {
             pose: place(&file.bed.pose),
             size_m: file.bed.size_mm.map(|mm| mm / 1e3),
+            albedo: file.bed.albedo.map(triple),
             mass_kg: file.bed.mass_kg,
             adhesion_pa: triple(file.bed.adhesion_mpa).scaled(1e6),
         },
@@ -321,7 +322,6 @@ fn limits(file: &LimitsFile) -> Limits {
         acceleration_share: file.acceleration_percent / 100.0,
         bead_band: file.bead_band_percent / 100.0,
         draw_ratio: file.draw_ratio,
-        bond_share: file.bond_percent / 100.0,
         tip_dose_share: file.tip_dose_share,
         nozzle_angle_rad: file.nozzle_angle_deg.map(f64::to_radians),
         cycle_time_s: file.cycle_time_s,

@@ -264,12 +264,12 @@ impl Code {
             | Self::P307
             | Self::P308
             | Self::P309
-            | Self::P310
             | Self::P311
             | Self::E502 => "1",
             Self::R102 => "rad",
             Self::E501 => "kg",
             Self::E504 | Self::E511 => "s",
+            Self::P310 => "N",
             _ => "m",
         }
     }

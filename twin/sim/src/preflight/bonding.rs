@@ -16,6 +16,8 @@ use crate::process::thermal::cooling;
 pub struct Bond {
     /// Strength over that along the strand: the share of its section that touches, times how far it has healed.
     pub share: Interval,
+    /// What that bears, N.
+    pub strength_n: Interval,
     /// How far it has healed, or how many sites are left to react; 0 to 1.
     pub degree: Interval,
     /// Where on the strand, m.
@@ -64,9 +66,18 @@ fn bond(
     let age_s = (touched_s - laid_s).max(0.0);
     let degree = degree(job, result, earlier, age_s, contact.at_m[0]);
     let share =
-        degree.unwrap_or(job.material.bond_fraction).scaled(touching_share(contact, result));
+        degree.unwrap_or(job.material.bond_fraction).scaled(touching_share(job, contact, result));
+    let diameter_m = result.outcome.bead_diameter_m.nominal;
+    let section_m2 = std::f64::consts::PI * diameter_m * diameter_m / 4.0;
+    let strength = job.material.strength_pa;
+    let strength_n = Interval::new(
+        share.nominal * strength.nominal * section_m2,
+        share.low * strength.low * section_m2,
+        share.high * strength.high * section_m2,
+    );
     Bond {
         share,
+        strength_n,
         degree: degree.unwrap_or(job.material.bond_fraction),
         at_m: contact.at_m[0],
         other: earlier.strand,
@@ -76,16 +87,34 @@ fn bond(
 
 /// Area of contact over the strand's section, at most one. Ends that meet within half a bead are merged: their whole
 /// section touches.
-fn touching_share(contact: &Contact, result: &StrandResult) -> f64 {
+fn touching_share(job: &Job, contact: &Contact, result: &StrandResult) -> f64 {
     let diameter_m = result.outcome.bead_diameter_m.nominal;
     let axes_m = contact.axes_m();
     if axes_m <= 0.5 * diameter_m {
         return 1.0;
     }
-    let half_m = pressed_half_width_m(diameter_m, axes_m);
+    let half_m = pressed_half_width_m(diameter_m, axes_m).max(neck_m(job, result));
     let area_m2 = contact_area_m2(diameter_m, half_m, Touch::Crossing(std::f64::consts::FRAC_PI_2));
     let section_m2 = std::f64::consts::PI * diameter_m * diameter_m / 4.0;
     (area_m2 / section_m2).min(1.0)
+}
+
+/// Half-width of the neck that the fresh strand's surface tension draws while it is hot, m; zero where that is unknown.
+/// The fresh strand flows as hot as it is, the earlier one not at all: half the neck of two fresh ones; ours.
+fn neck_m(job: &Job, result: &StrandResult) -> f64 {
+    let Setting::Thermoplastic(plastic) = &job.material.setting else { return 0.0 };
+    let Some(tension) = plastic.surface_tension_n_m else { return 0.0 };
+    let cooling = cooling(&result.input, &job.material, plastic, Corner::Nominal);
+    let until_s = cooling.time_to_s(plastic.flow_arrest_k.nominal).min(LONGEST_S);
+    let sample = |k: usize| {
+        let age_s = until_s * (k as f64 / SAMPLES as f64).powi(2);
+        (age_s, cooling.temperature_k(age_s))
+    };
+    let samples: Vec<(f64, f64)> = (0..=SAMPLES).map(sample).collect();
+    let radius_m = result.outcome.hot_diameter_m / 2.0;
+    let viscosity = |kelvin: f64| plastic.viscosity.zero_shear_pa_s(kelvin);
+    let angle_rad = contact::neck_angle_rad(&samples, radius_m, tension.nominal, viscosity);
+    0.5 * contact::neck_half_width_m(radius_m, angle_rad)
 }
 
 /// How far a weld heals, where the material's weld time is known. What resins bond to has cured through where the lights
@@ -136,16 +165,15 @@ pub(super) fn judge(
         let printed = &deposit.strands[order];
         let site = Site::strand(result.strand, bond.at_m).at(printed.planned_at(bond.at_m));
         let time_s = Some(printed.born_s + result.course.time_at_s(bond.at_m));
-        let limit = job.limits.bond_share;
-        let check =
-            Check { code: Code::P310, measured: bond.share, limit, warn_limit: None, site, time_s };
+        let limit = job.cell.extruder.nozzle_force_n.nominal;
+        let measured = bond.strength_n;
+        let check = Check { code: Code::P310, measured, limit, warn_limit: None, site, time_s };
         findings.check(check, || {
             let (id, other) = (&job.strands[result.strand].id, &job.strands[bond.other].id);
-            let percent = bond.share.map(|share| share * 100.0);
             Words {
                 message: format!(
-                    "strand `{id}` holds to `{other}` with {:.0} % of its own strength ({:.0} to {:.0} %)",
-                    percent.nominal, percent.low, percent.high
+                    "strand `{id}` holds to `{other}` with {:.1} N ({:.1} to {:.1} N); the nozzle pushes with {limit:.1} N",
+                    measured.nominal, measured.low, measured.high
                 ),
                 hint: "wait at the node with the hot nozzle, print hotter, or press the beads nearer together"
                     .to_owned(),

@@ -10,7 +10,8 @@ use crate::toolpath::{Path, Sample};
 pub(super) fn course(job: &Job, path: &Path, leg: Option<&Leg>) -> Course {
     let strand = &job.strands[path.strand];
     let moments = leg.map_or(&[][..], |leg| &leg.moments);
-    let stations = if moments.len() < 2 {
+    let unreached = leg.is_some_and(|leg| !leg.unreached.is_empty());
+    let stations = if moments.len() < 2 || unreached {
         as_asked(job, path)
     } else {
         moments.iter().map(|moment| station(job, path, moment, moments[0].time_s)).collect()

@@ -10,8 +10,8 @@ use crate::process::shade::Shade;
 use crate::process::{Course, Photopolymer};
 use crate::shape::Shape;
 
-/// Share of the light that the bed throws back. Nobody publishes it: a dark one to a bright one; ours.
-const ALBEDO: [f64; 3] = [0.3, 0.05, 0.8];
+/// Share of the light that a bed throws back of which nobody knows: it can only warn; the high end a bright one, ours.
+const ALBEDO: Interval = Interval { nominal: 0.0, low: 0.0, high: 0.8 };
 /// The disc that shades the orifice stands this far above it, as a share of the lamps' height; ours.
 const SHADE_SHARE: f64 = 0.25;
 
@@ -109,6 +109,7 @@ pub(super) fn tip_dose(
     };
     let nearest = lit.iter().min_by(|a, b| height(a).total_cmp(&height(b)))?;
     let bed_m = height(&nearest).max(1e-5);
+    let albedo = job.cell.bed.albedo.unwrap_or(ALBEDO);
     let rim_m = 0.5 * job.cell.tool.orifice_m;
     let residence_s = diameter_m / speed_m_s;
     let share_at = |corner: Corner, albedo: f64, bed_m: f64| {
@@ -124,9 +125,9 @@ pub(super) fn tip_dose(
         (light.direct_w_m2 + light.reflected_w_m2) * residence_s / critical
     };
     let share = Interval::new(
-        share_at(Corner::Nominal, ALBEDO[0], bed_m),
-        share_at(Corner::Slow, ALBEDO[1], bed_m),
-        share_at(Corner::Fast, ALBEDO[2], bed_m),
+        share_at(Corner::Nominal, albedo.nominal, bed_m),
+        share_at(Corner::Slow, albedo.low, bed_m),
+        share_at(Corner::Fast, albedo.high, bed_m),
     );
     let limit = job.limits.tip_dose_share;
     let clear_after_m = if share.nominal <= limit {
@@ -135,7 +136,7 @@ pub(super) fn tip_dose(
         let (lamps, shades) = on_tool(job, 0.5 * diameter_m, Corner::Nominal);
         let tip = Tip { rim_m, lamps: &lamps, shades: &shades };
         let limit_w_m2 = tip_limit_w_m2(limit, resin.critical_exposure_j_m2.nominal, residence_s);
-        let clear_m = tip.clear_m(limit_w_m2, ALBEDO[0], 0.2);
+        let clear_m = tip.clear_m(limit_w_m2, albedo.nominal, 0.2);
         let rise = (job.bed_from_part * nearest.tangent).z;
         nearest.at_m + lights_on_after_m(clear_m, bed_m, rise)
     };

@@ -74,11 +74,8 @@ impl Rules<'_> {
         let Some(worst) = worst else { return };
         let swell = self.job.cell.extruder.swell;
         let ratio = swell.map(|swell| worst.bead.draw_ratio * (swell / swell_of(self.job)).powi(2));
-        // Between the ends of the swell the share has its least; the ends decide.
-        let [a, b] = [past(ratio.low), past(ratio.high)];
-        let nominal = past(ratio.nominal);
-        let measured =
-            Interval { nominal, low: a.min(b).min(nominal), high: a.max(b).max(nominal) };
+        // The doubt about the swell is as wide as the band: told in the words, not held against every strand.
+        let measured = Interval::exact(past(ratio.nominal));
         self.check(Code::P302, worst.at_m, (measured, 1.0), findings, || {
             let told = format!(
                 "is drawn at {:.2} times the speed of a free strand ({:.2} to {:.2}); {low} to {high} is safe",
@@ -104,6 +101,9 @@ impl Rules<'_> {
             return;
         }
         let slack_m = self.result.outcome.sag_slack_m;
+        // What is nominally taut may hang if the swell is greater than told: so may every strand, and an
+        // assumption says it.
+        let slack_m = if slack_m.nominal > 0.0 { slack_m } else { Interval::exact(0.0) };
         let measured = slack_m.map(|sag_m| sag_m / self.job.limits.sag_m);
         let at_m = 0.5 * self.length_m();
         self.check(Code::P302, at_m, (measured, 1.0), findings, || {
@@ -145,9 +145,9 @@ impl Rules<'_> {
         let told_m3_s = strand.asked(f64::NEG_INFINITY).1;
         let share = (1.0 - self.job.limits.bead_band).powi(2);
         let needed_s = lag_s.map(|lag_s| prime_time_s(lag_s, 0.0, told_m3_s, share));
-        // What a start lacks over less than a bead's length is made up by the bead beside it.
-        let bead_s = self.result.outcome.hot_diameter_m / strand.settings.speed_m_s;
-        let needed_s = needed_s.map(|needed_s| (needed_s - bead_s).max(0.0));
+        // What a start lacks over three widths of a bead is lost in the node it starts from; ours.
+        let start_s = 3.0 * self.result.outcome.hot_diameter_m / strand.settings.speed_m_s;
+        let needed_s = needed_s.map(|needed_s| (needed_s - start_s).max(0.0));
         self.needs("prime_s", "s", 0.0, strand.settings.prime_s, needed_s, findings);
     }
 

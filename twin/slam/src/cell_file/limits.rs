@@ -46,11 +46,8 @@ pub struct LimitsFile {
     /// Least and largest speed of the nozzle over that of a free strand.
     #[serde(default = "draw_ratio")]
     pub draw_ratio: [f64; 2],
-    /// Least strength of a bond, percent of the strength along the strand.
-    #[serde(default = "a_fifth")]
-    pub bond_percent: f64,
     /// Largest dose at the nozzle's tip while one bead passes, as a share of the critical exposure.
-    #[serde(default = "half")]
+    #[serde(default = "one")]
     pub tip_dose_share: f64,
     /// Largest angle between the nozzle's axis and the strand, degrees; not given: any.
     pub nozzle_angle_deg: Option<f64>,
@@ -68,14 +65,9 @@ fn draw_ratio() -> [f64; 2] {
     [0.9, 3.0]
 }
 
-/// What thin layered beams were seen to keep (Tam and Mueller: 0.21 to 0.28).
-fn a_fifth() -> f64 {
-    20.0
-}
-
-/// A tip that gets half a critical exposure for every bead that passes: ours.
-fn half() -> f64 {
-    0.5
+/// At a critical exposure the gel on the tip sets.
+fn one() -> f64 {
+    1.0
 }
 
 fn all_of_it() -> f64 {
@@ -91,8 +83,7 @@ pub(super) fn check(limits: Option<Place<'_>>, checks: &mut Checks) {
             | "torque_percent"
             | "acceleration_percent"
             | "speed_band_percent"
-            | "bead_band_percent"
-            | "bond_percent" => Rule::AboveUpTo(0.0, 100.0),
+            | "bead_band_percent" => Rule::AboveUpTo(0.0, 100.0),
             "nozzle_angle_deg" => Rule::AboveUpTo(0.0, 180.0),
             "wrist_deg" => Rule::Between(0.0, 90.0),
             _ => Rule::Positive,
