@@ -16,6 +16,7 @@ use crate::program;
 use crate::results::{
     self, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand,
 };
+use crate::strands;
 
 impl Report {
     /// Everything a preflight found; `source` is the text of the job, for line numbers.
@@ -113,11 +114,12 @@ impl Fill<'_> {
         printings
             .iter()
             .zip(&self.preflight.strands)
-            .map(|(printing, result)| self.strand(printing, result))
+            .enumerate()
+            .map(|(order, (printing, result))| self.strand(order, printing, result))
             .collect()
     }
 
-    fn strand(&self, printing: &Printing, result: &StrandResult) -> Strand {
+    fn strand(&self, order: usize, printing: &Printing, result: &StrandResult) -> Strand {
         let StrandResult { strand, input, outcome, .. } = result;
         Strand {
             id: self.id(*strand),
@@ -142,6 +144,13 @@ impl Fill<'_> {
             sag_slack_m: range(outcome.sag_slack_m),
             sag_set_m: range(outcome.sag_set_m),
             end_miss_m: range(outcome.end_miss_m),
+            shortening_m: range(outcome.shortening_m),
+            cured_depth_m: outcome.cured_depth_m.map(range),
+            bond: self.bond(order),
+            bead_share: strands::bead_share(self.job, result),
+            blobs_m: strands::blobs_m(result),
+            ageing: strands::ageing(self.job, result),
+            centreline_m: strands::centreline_m(&self.preflight.deposit.strands[order]),
             uncured_core_m: outcome.uncured_core_m.map(range),
             area_fraction: range(outcome.area_fraction),
             stiffness_fraction: range(outcome.stiffness_fraction),
@@ -157,6 +166,19 @@ impl Fill<'_> {
             tcp_speed: program::tcp_speed(&self.preflight.program, *strand),
             error_budget: program::budget(&self.preflight.program, *strand),
         }
+    }
+
+    fn bond(&self, order: usize) -> Option<results::Bond> {
+        let bond = self.preflight.bonds[order]?;
+        Some(results::Bond {
+            value: number(bond.degree.nominal),
+            low: number(bond.degree.low),
+            high: number(bond.degree.high),
+            strength_n: range(bond.strength_n),
+            to: self.id(bond.other),
+            at_m: bond.at_m,
+            by_law: bond.by_law,
+        })
     }
 
     fn strand_motion(&self, motion: StrandMotion) -> results::StrandMotion {

@@ -14,6 +14,7 @@ mod results;
 #[cfg(test)]
 mod sample;
 mod screen;
+mod strands;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

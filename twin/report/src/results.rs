@@ -58,6 +58,20 @@ pub struct Strand {
     pub sag_set_m: Range,
     /// How far its end is pulled back after the nozzle has left it, m.
     pub end_miss_m: Range,
+    /// Shortening still to come when the nozzle leaves, were the end free, m: locked in as strain where it is joined.
+    pub shortening_m: Range,
+    /// Depth cured from the surface at the least lit place, m; null: not a photopolymer.
+    pub cured_depth_m: Option<Range>,
+    /// Weakest bond to an earlier strand; null: it touches none.
+    pub bond: Option<Bond>,
+    /// Beads along it, as drawn: thinnest and widest over what was asked, away from the ends; null: too short.
+    pub bead_share: Option<[f64; 2]>,
+    /// Balls of what comes out at rest, diameters, m: before the start, at the end, after leaving.
+    pub blobs_m: [Option<f64>; 3],
+    /// What a section is at ages after the nozzle.
+    pub ageing: Ageing,
+    /// As printed, part axes, m; every point or an even choice of them.
+    pub centreline_m: Vec<[f64; 3]>,
     /// Radius left uncured, m; null: not a photopolymer.
     pub uncured_core_m: Option<Range>,
     /// Share of the area that is solid.
@@ -74,6 +88,42 @@ pub struct Strand {
     pub tcp_speed: Option<TcpSpeed>,
     /// What errors of calibration do to where it lies.
     pub error_budget: Option<Budget>,
+}
+
+/// How well a strand holds to an earlier one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bond {
+    /// How far it has healed, 0 to 1; low and high with it.
+    pub value: Option<f64>,
+    /// Low end.
+    pub low: Option<f64>,
+    /// High end.
+    pub high: Option<f64>,
+    /// What it bears, N.
+    pub strength_n: Range,
+    /// The earlier strand.
+    pub to: String,
+    /// Where on the strand, m.
+    pub at_m: f64,
+    /// By the law of healing; else the material's bond fraction, measured on other prints.
+    pub by_law: bool,
+}
+
+/// A section against its age, nominal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ageing {
+    /// Ages, s.
+    pub age_s: Vec<f64>,
+    /// Mean temperature, K.
+    pub temperature_k: Vec<Option<f64>>,
+    /// Temperature on the axis, K; empty but for thermoplastics.
+    pub core_k: Vec<Option<f64>>,
+    /// Degree of cure at the surface; empty where its kinetics are not known.
+    pub cure: Vec<Option<f64>>,
+    /// Young's modulus, Pa.
+    pub modulus_pa: Vec<Option<f64>>,
 }
 
 /// What holds a strand.

@@ -6,7 +6,8 @@ use crate::parts::{
 };
 use crate::program::{Cycle, Payload, Share};
 use crate::results::{
-    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion, WorstAt,
+    Ageing, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion,
+    WorstAt,
 };
 
 fn range(nominal: f64, low: f64, high: f64) -> Range {
@@ -35,6 +36,19 @@ pub(crate) fn strand(id: &str, sag_m: f64) -> Strand {
         sag_slack_m: range(0.0, 0.0, 0.0),
         sag_set_m: range(2e-5, 1e-5, 4e-5),
         end_miss_m: range(0.0, 0.0, 1e-4),
+        shortening_m: range(1e-4, 5e-5, 2e-4),
+        cured_depth_m: None,
+        bond: None,
+        bead_share: Some([0.98, 1.01]),
+        blobs_m: [Some(0.0), Some(0.0), Some(0.0)],
+        ageing: Ageing {
+            age_s: vec![0.0, 1.0],
+            temperature_k: vec![Some(513.0), Some(460.0)],
+            core_k: vec![Some(513.0), Some(470.0)],
+            cure: Vec::new(),
+            modulus_pa: vec![Some(1e6), Some(1e6)],
+        },
+        centreline_m: vec![[0.0, 0.0, 0.0], [0.06, 0.0, 0.0]],
         uncured_core_m: None,
         area_fraction: range(1.0, 1.0, 1.0),
         stiffness_fraction: range(1.0, 1.0, 1.0),

@@ -6,7 +6,10 @@ use crate::cell::Job;
 use crate::deposit::Printed;
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::interval::Interval;
-use crate::process::{Ends, Setting, StrandOutcome};
+use crate::process::history::Corner;
+use crate::process::shrinkage::remedy;
+use crate::process::strand::shortening_at;
+use crate::process::{Ends, Heats, Setting, StrandOutcome};
 
 struct Judge<'a> {
     job: &'a Job,
@@ -61,7 +64,7 @@ pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, finding
         this.hold(Code::P304, outcome.end_miss_m, limits.node_miss_m, None, findings, |mm| {
             (
                 format!("loses {mm} at its free end by shrinkage still to come"),
-                "wait at the end before leaving it, or travel further by that much".to_owned(),
+                wait_or_go_on(job, result),
             )
         });
     }
@@ -80,6 +83,29 @@ pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, finding
             );
             (words, "print slower, add light, or plan a post-cure".to_owned())
         });
+    }
+}
+
+/// The wait at the end that brings the miss within its limit, and the way to go past the node without it.
+fn wait_or_go_on(job: &Job, result: &StrandResult) -> String {
+    /// Longer waits are no advice.
+    const LONGEST_S: f64 = 120.0;
+    let (input, material) = (&result.input, &job.material);
+    let heats = Heats::new(input, material);
+    // What fails at its high end only is mended for that end.
+    let limit_m = job.limits.node_miss_m;
+    let corner =
+        if result.outcome.end_miss_m.nominal > limit_m { Corner::Nominal } else { Corner::Slow };
+    let still_m =
+        |wait_s: f64| shortening_at(input, material, &heats, input.dwell_s + wait_s, corner);
+    let remedy = remedy(limit_m, LONGEST_S, still_m);
+    let further = format!("travel further by {:.2} mm", still_m(0.0) * 1e3);
+    match remedy.dwell_s {
+        Some(wait_s) => format!(
+            "wait {:.1} s at the end before leaving it, or {further}",
+            input.dwell_s + wait_s
+        ),
+        None => format!("{further}: no wait of {LONGEST_S:.0} s or less is enough"),
     }
 }
 

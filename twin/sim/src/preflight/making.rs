@@ -16,7 +16,9 @@ use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
 use crate::process::lit::{self, Lit};
 use crate::process::sag::stretched_sag_m;
+use crate::process::section::round;
 use crate::process::soft_rod::{self, Sagged};
+use crate::process::threads::Knotted;
 use crate::process::{
     self, Air, Blown, Course, Ends, Fidelity, Heats, Setting, StrandInput, StrandOutcome,
 };
@@ -384,21 +386,44 @@ fn hold(job: &Job, printed: &Printed, contacts: &[&Contact]) -> Hold {
     Hold { ends: Ends::BothHeld, span_m, start_held, stretch_m }
 }
 
+/// Axial and bending stiffness with knotted threads over those of the core alone, over its longest span.
+fn threads_share(job: &Job, result: &StrandResult) -> [f64; 2] {
+    let Some(threads) = job.strands[result.strand].settings.threads else { return [1.0, 1.0] };
+    let core_m = result.outcome.bead_diameter_m.nominal;
+    let knotted = Knotted {
+        core_m,
+        thread_m: threads.diameter_m,
+        count: threads.count,
+        knot_offset_m: 0.5 * (core_m + threads.diameter_m),
+        sweep_m: threads.sweep_m,
+        pitch_m: threads.pitch_m,
+    };
+    let e_pa = result.outcome.youngs_modulus_pa.nominal;
+    let stiffness = knotted.stiffness(e_pa, job.material.poisson.nominal);
+    let core = round(core_m);
+    let axial = stiffness.axial_n / (e_pa * core.area_m2);
+    let bending = stiffness.bending_over_span_n_m2(result.input.span_m) / (e_pa * core.i_y_m4);
+    [axial, bending].map(|share| if share.is_finite() { share.max(1.0) } else { 1.0 })
+}
+
 /// What the structure needs to know. The strain of a strand whose end is free is its end-point
 /// error (P304) and loads nothing; that of a strand on a form or between joints is locked in.
 pub(super) fn law(job: &Job, result: &StrandResult) -> StrandLaw {
     let (outcome, material) = (&result.outcome, &job.material);
+    let [axial, bending] = threads_share(job, result);
     StrandLaw {
         diameter_m: outcome.bead_diameter_m.nominal,
-        area_fraction: outcome.area_fraction.nominal.max(1e-6),
-        stiffness_fraction: outcome.stiffness_fraction.nominal.max(1e-6),
+        area_fraction: outcome.area_fraction.nominal.max(1e-6) * axial,
+        stiffness_fraction: outcome.stiffness_fraction.nominal.max(1e-6) * bending,
         e_pa: outcome.youngs_modulus_pa.nominal,
         poisson: material.poisson.nominal,
         density_kg_m3: material.density_kg_m3.nominal,
-        strain: if result.input.ends == Ends::StartHeld {
-            0.0
-        } else {
-            -outcome.free_strain.nominal
+        strain: match result.input.ends {
+            Ends::StartHeld => 0.0,
+            // What shrank before the far end was joined was fed from the nozzle.
+            Ends::BothHeld => -outcome.shortening_m.nominal / result.input.length_m,
+            // Held where it lies, section by section.
+            Ends::Resting => -outcome.free_strain.nominal,
         },
         strength_pa: material.strength_pa.nominal,
         bond_fraction: material.bond_fraction.nominal,

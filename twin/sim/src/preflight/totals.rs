@@ -8,6 +8,7 @@ use crate::finding::Phase;
 use crate::growth::Growth;
 use crate::kinematics::Coverage;
 use crate::motion::Motion;
+use crate::process::Setting;
 use crate::toolpath::Path;
 
 /// Sums over the whole program.
@@ -107,7 +108,7 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
     say(
         "clearance",
         format!(
-            "the arm's accuracy of ± {:.2} mm is added as an interval; parry3d's f32 rounding of 0.002 mm is subtracted.",
+            "the arm's accuracy of ± {:.2} mm is added as an interval; rounding is far below the resolution.",
             robot.accuracy_m * 1e3
         ),
     );
@@ -127,15 +128,7 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
             ),
         );
     }
-    say("process", "sag behind the nozzle uses closed forms; its growth with the fourth power of speed has no published measurement behind it.".to_owned());
-    say("process", "a strand is made with its mean speed and flow.".to_owned());
-    let switched = |strand: &crate::cell::Strand| {
-        !strand.events.is_empty() || strand.settings.lights_after_m > 0.0
-    };
-    if job.strands.iter().any(switched) {
-        say("process", "`events` and `lights_after_mm` are carried to the program but not simulated: light and flow are taken as on along every strand.".to_owned());
-    }
-    say("process", "slack of over-fed strands is told but held against no limit.".to_owned());
+    process_assumptions(job, &mut say);
     say("structure", "linear frame of set strands; what rests on bed or form is clamped until released, not one-sided.".to_owned());
     say("structure", "a strand's contacts with itself are not joined.".to_owned());
     say(
@@ -154,4 +147,79 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
         say("structure", "ends said to be free are not joined to what is there, even where they touch; later strands may land on them.".to_owned());
     }
     list
+}
+
+/// What the process rests on, and which laws nobody has the constants for.
+fn process_assumptions(job: &Job, say: &mut impl FnMut(&'static str, String)) {
+    let mut law = |text: &str| say("process", text.to_owned());
+    law(
+        "sag behind the nozzle by closed forms up to a tenth of the bead, past it by the ageing rod; its growth with the fourth power of speed has no published measurement behind it.",
+    );
+    law(
+        "sag, heat and shrinkage of a strand take its mean speed and bead; the beads along it are told beside them.",
+    );
+    law("intervals are corners: all adverse ends of the inputs together, no probability is meant.");
+    let swell = job.cell.extruder.swell;
+    if swell.low < swell.high {
+        law(
+            "a strand nominally taut may hang if its swell is greater than told: one bridge, and `twin calibrate`, tell.",
+        );
+    }
+    if job.cell.extruder.lag_s.is_none() {
+        law("the extruder's lag is not known: flow is taken to follow at once.");
+    }
+    match &job.material.setting {
+        Setting::Thermoplastic(plastic) => {
+            if plastic.weld.is_none() {
+                law(
+                    "no weld time is known of this melt: bonds take the bond fraction measured on other prints.",
+                );
+            } else {
+                law(
+                    "welds heal by a law whose constants are from memory; in free air it gives a fifth of what dense coupons have.",
+                );
+            }
+            if plastic.heat.is_none() {
+                law("specific heat and conductivity are taken as constant in temperature.");
+            }
+            if plastic.melt_life_s.is_none() {
+                law(
+                    "how long this melt may wait in the nozzle is not known: idle time is not judged.",
+                );
+            }
+            law(
+                "neighbours reheated by the passing nozzle and its jet are not taken back into the frame.",
+            );
+        }
+        Setting::Photopolymer(resin) => {
+            if resin.kinetics.is_none() {
+                law(
+                    "no cure kinetics are known of this resin: cure is told as depth by dose alone.",
+                );
+            } else {
+                law(
+                    "cure kinetics are fitted to the critical exposure; nobody has published rates for this resin.",
+                );
+            }
+            law(
+                "heat of reaction, bleaching, refraction and light thrown back by the bed into the strand are left out of its dose.",
+            );
+            if job.cell.bed.albedo.is_none() {
+                law("how much light the bed throws back is not known: it can only warn (P308).");
+            }
+            if job.strands.iter().any(|strand| strand.settings.second_pass_m_s.is_some()) {
+                law(
+                    "a second pass is credited with its dose; its motion and time are not planned.",
+                );
+            }
+        }
+        Setting::TwoPart(mix) => {
+            if mix.pot_life_s.is_none() {
+                law("the pot life of this mix is not known: idle time is not judged.");
+            }
+        }
+    }
+    if job.strands.iter().any(|strand| strand.settings.threads.is_some()) {
+        law("knotted threads stiffen the strand; their weight, heat and clearance are left out.");
+    }
 }

@@ -171,6 +171,8 @@ pub struct StrandOutcome {
     pub sag_set_m: Interval,
     /// How far the end is pulled back after the nozzle has left it, m.
     pub end_miss_m: Interval,
+    /// Shortening still to come of the whole strand when the nozzle leaves, were its end free, m.
+    pub shortening_m: Interval,
     /// Radius left uncured, m; photopolymers only.
     pub uncured_core_m: Option<Interval>,
     /// Depth cured from the surface, m; photopolymers only.
@@ -226,6 +228,8 @@ pub fn simulate_with(input: &StrandInput, material: &Material, heats: &Heats) ->
         low: youngs_modulus_pa.low * shell.stiffness.low,
         high: youngs_modulus_pa.high * shell.stiffness.high,
     };
+    let shortening_m =
+        Corner::interval(|corner| shortening_at(input, material, heats, input.dwell_s, corner));
     StrandOutcome {
         bead_diameter_m,
         hot_diameter_m: hot_m,
@@ -236,7 +240,8 @@ pub fn simulate_with(input: &StrandInput, material: &Material, heats: &Heats) ->
         sag_linear: sag.linear,
         sag_slack_m: slack_m(input, draw_ratio, free_strain),
         sag_set_m: sag_set_m(input, material, bead_diameter_m.nominal, stiffness),
-        end_miss_m: end_miss_m(input, material, heats),
+        end_miss_m: end_miss_m(input, shortening_m),
+        shortening_m,
         uncured_core_m: shell.core_m,
         cured_depth_m: shell.depth_m,
         area_fraction: shell.area,
@@ -356,54 +361,54 @@ fn sag_set_m(
     }
 }
 
-/// Pull-back of the end. Free: the law of its setting. Held or resting: nominally none, since what it is
-/// joined to holds it and the strain becomes force (see `free_strain`); the high end is that of a free one.
-fn end_miss_m(input: &StrandInput, material: &Material, heats: &Heats) -> Interval {
-    let free = Corner::interval(|corner| match &material.setting {
+/// Pull-back of the end: the shortening where it is free. Held or resting: nominally none, since what it is
+/// joined to holds it and the strain becomes force; the high end is that of a free one.
+fn end_miss_m(input: &StrandInput, shortening_m: Interval) -> Interval {
+    match input.ends {
+        Ends::StartHeld => shortening_m,
+        Ends::BothHeld | Ends::Resting => {
+            Interval { nominal: 0.0, low: 0.0, high: shortening_m.high }
+        }
+    }
+}
+
+/// Shortening still to come after a wait at the end, m, at a corner; by the law of the setting.
+pub fn shortening_at(
+    input: &StrandInput,
+    material: &Material,
+    heats: &Heats,
+    dwell_s: f64,
+    corner: Corner,
+) -> f64 {
+    let (length_m, speed_m_s) = (input.length_m, input.speed_m_s);
+    match &material.setting {
         Setting::Thermoplastic(plastic) => {
             let expansion = corner.harmful(material.cte_per_k);
             let glass_k = corner.harmful(plastic.glass_k);
-            let (length_m, dwell_s) = (input.length_m, input.dwell_s);
             match heats.at(corner) {
-                Some(Heat::Lumped(cooling)) => cooling_end_miss_m(
-                    expansion,
-                    glass_k,
-                    cooling,
-                    length_m,
-                    input.speed_m_s,
-                    dwell_s,
-                ),
+                Some(Heat::Lumped(cooling)) => {
+                    cooling_end_miss_m(expansion, glass_k, cooling, length_m, speed_m_s, dwell_s)
+                }
                 Some(heat) => {
-                    let printed_s = length_m / input.speed_m_s;
+                    let printed_s = length_m / speed_m_s;
                     let air_k = input.air.temperature_k;
-                    shrinkage::end_miss_m(
-                        &[(0.0, 0.0), (length_m, printed_s)],
-                        printed_s + dwell_s,
-                        |age_s| expansion * (heat.temperature_k(age_s).min(glass_k) - air_k),
-                    )
+                    let stations = [(0.0, 0.0), (length_m, printed_s)];
+                    shrinkage::end_miss_m(&stations, printed_s + dwell_s, |age_s| {
+                        expansion * (heat.temperature_k(age_s).min(glass_k) - air_k)
+                    })
                 }
                 None => 0.0,
             }
         }
-        Setting::Photopolymer(resin) => light_run(input, resin, corner).end_miss_m(
-            input.length_m,
-            input.speed_m_s,
-            input.dwell_s,
-        ),
+        Setting::Photopolymer(resin) => {
+            light_run(input, resin, corner).end_miss_m(length_m, speed_m_s, dwell_s)
+        }
         Setting::TwoPart(mix) => {
             let gel_s = corner.harmful(mix.set_time_s);
-            CureRun {
-                strain: corner.harmful(mix.linear_shrinkage),
-                shadow_m: 0.0,
-                gel_s,
-                done_s: 2.0 * gel_s,
-            }
-            .end_miss_m(input.length_m, input.speed_m_s, input.dwell_s)
+            let strain = corner.harmful(mix.linear_shrinkage);
+            CureRun { strain, shadow_m: 0.0, gel_s, done_s: 2.0 * gel_s }
+                .end_miss_m(length_m, speed_m_s, dwell_s)
         }
-    });
-    match input.ends {
-        Ends::StartHeld => free,
-        Ends::BothHeld | Ends::Resting => Interval { nominal: 0.0, low: 0.0, high: free.high },
     }
 }
 

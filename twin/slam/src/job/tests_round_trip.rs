@@ -63,7 +63,7 @@ fn orientation() -> impl Strategy<Value = Orientation> {
 fn process() -> impl Strategy<Value = Process> {
     let interpolation =
         option::of(prop_oneof![Just(Interpolation::Linear), Just(Interpolation::Joint)]);
-    let threads = option::of((1..12_u32, [0.01..9.0_f64, 0.01..9.0, 0.0..9.0]));
+    let threads = option::of((3..12_u32, [0.01..9.0_f64, 0.01..9.0, 0.0..9.0]));
     (vec(positive(), 9), flow(), orientation(), interpolation, threads).prop_map(
         |(n, flow, orientation, interpolation, threads)| Process {
             speed_mm_s: n[0],

@@ -164,7 +164,7 @@ const FLOW: Table = table(
 const THREADS: Table = table(
     "threads",
     &[&[
-        required("count", Kind::Integer(Range::within(1.0, 12.0)), "", "How many threads."),
+        required("count", Kind::Integer(Range::within(3.0, 12.0)), "", "How many threads."),
         required("diameter_mm", Kind::Number(Range::positive(200.0)), "mm", "Diameter of one."),
         required("pitch_mm", Kind::Number(Range::positive(1e4)), "mm", "From knot to knot."),
         required(
