@@ -14,6 +14,8 @@ mod pictures;
 #[cfg(test)]
 mod planted;
 #[cfg(test)]
+mod planted_process;
+#[cfg(test)]
 mod reference;
 #[cfg(test)]
 mod scenarios;
