@@ -8,6 +8,8 @@ mod by_hand;
 #[cfg(test)]
 mod invariance;
 #[cfg(test)]
+mod invariance_process;
+#[cfg(test)]
 mod peers;
 #[cfg(test)]
 mod pictures;
