@@ -85,7 +85,7 @@ fn same(a: &Value, b: &Value) {
 }
 
 /// The cell of the KR 6 seen from axes elsewhere: every pose in it is written anew, gravity turns.
-fn elsewhere(folder: &Path) {
+pub(crate) fn elsewhere(folder: &Path) {
     let library = |name: &str| {
         std::fs::read_to_string(root().join("robots").join(name)).expect("a file of the library")
     };

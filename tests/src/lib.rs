@@ -8,11 +8,15 @@ mod by_hand;
 #[cfg(test)]
 mod invariance;
 #[cfg(test)]
+mod invariance_process;
+#[cfg(test)]
 mod peers;
 #[cfg(test)]
 mod pictures;
 #[cfg(test)]
 mod planted;
+#[cfg(test)]
+mod planted_process;
 #[cfg(test)]
 mod reference;
 #[cfg(test)]
