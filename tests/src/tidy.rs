@@ -15,7 +15,7 @@ const MAY_USE: [(&str, &[&str]); 22] = [
     ("kinematics", &["pose"]),
     ("timing", &["kinematics", "pose"]),
     ("dynamics", &["kinematics", "pose"]),
-    ("process", &["interval"]),
+    ("process", &["interval", "pose"]),
     ("calibration", &["process", "interval"]),
     ("structure", &["pose"]),
     ("validation", &["process", "interval"]),

@@ -2,12 +2,13 @@
 
 use crate::cell::{Job, Lamp as CellLamp};
 use crate::interval::Interval;
+use crate::pose::Point;
 use crate::process::bed_light::{Tip, lights_on_after_m, tip_limit_w_m2};
 use crate::process::history::Corner;
 use crate::process::lamp::{Lamp, Lobe, RingPlace};
 use crate::process::lights::{ALWAYS, Carrier, LampSet, Lights};
 use crate::process::shade::Shade;
-use crate::process::{Course, Photopolymer};
+use crate::process::{Course, Photopolymer, Station};
 use crate::shape::Shape;
 
 /// Share of the light that a bed throws back of which nobody knows: it can only warn; the high end a bright one, ours.
@@ -98,47 +99,68 @@ pub(super) fn tip_dose(
     (diameter_m, speed_m_s): (f64, f64),
 ) -> Option<TipDose> {
     let length_m = course.length_m();
-    let lit: Vec<_> = course
+    let lit: Vec<&Station> = course
         .stations
         .iter()
         .filter(|station| station.at_m <= length_m && course.lit_at(station.time_s))
         .collect();
-    let height = |station: &&&crate::process::Station| {
+    let height = |station: &Station| {
         let place = station.part_from_tool.translation.vector;
-        (job.bed_from_part * crate::pose::Point::from(place)).z
+        (job.bed_from_part * Point::from(place)).z
     };
-    let nearest = lit.iter().min_by(|a, b| height(a).total_cmp(&height(b)))?;
-    let bed_m = height(&nearest).max(1e-5);
-    let albedo = job.cell.bed.albedo.unwrap_or(ALBEDO);
-    let rim_m = 0.5 * job.cell.tool.orifice_m;
     let residence_s = diameter_m / speed_m_s;
-    let share_at = |corner: Corner, albedo: f64, bed_m: f64| {
-        let (lamps, shades) = on_tool(job, 0.5 * diameter_m, corner);
-        let tip = Tip { rim_m, lamps: &lamps, shades: &shades };
-        let light = tip.light(bed_m, albedo);
-        // Bright lamps are the bad end here.
-        let critical = match corner {
-            Corner::Nominal => resin.critical_exposure_j_m2.nominal,
-            Corner::Fast => resin.critical_exposure_j_m2.low,
-            Corner::Slow => resin.critical_exposure_j_m2.high,
-        };
-        (light.direct_w_m2 + light.reflected_w_m2) * residence_s / critical
+    let albedo = job.cell.bed.albedo.unwrap_or(ALBEDO);
+    let share_at = |station: &Station, bed_m: f64, corner: Corner| {
+        let (mut lamps, shades) = on_tool(job, 0.5 * diameter_m, corner);
+        let tool_from_room = station.part_from_tool.inverse() * station.part_from_room;
+        lamps.extend(job.cell.lamps.iter().map(|lamp| of(lamp, corner).moved(&tool_from_room)));
+        let tip = Tip { rim_m: 0.5 * job.cell.tool.orifice_m, lamps: &lamps, shades: &shades };
+        // Bright lamps and a bright bed are the bad end here.
+        let critical_j_m2 = corner.harmful(resin.critical_exposure_j_m2);
+        let light = tip.light(bed_m, corner.helpful(albedo));
+        (light.direct_w_m2 + light.reflected_w_m2) * residence_s / critical_j_m2
     };
+    let (station, bed_m) = worst_height(&lit, height, |s, h| share_at(s, h, Corner::Nominal))?;
     let share = Interval::new(
-        share_at(Corner::Nominal, albedo.nominal, bed_m),
-        share_at(Corner::Slow, albedo.low, bed_m),
-        share_at(Corner::Fast, albedo.high, bed_m),
+        share_at(station, bed_m, Corner::Nominal),
+        share_at(station, bed_m, Corner::Slow),
+        share_at(station, bed_m, Corner::Fast),
     );
     let limit = job.limits.tip_dose_share;
     let clear_after_m = if share.nominal <= limit {
         0.0
     } else {
         let (lamps, shades) = on_tool(job, 0.5 * diameter_m, Corner::Nominal);
-        let tip = Tip { rim_m, lamps: &lamps, shades: &shades };
+        let tip = Tip { rim_m: 0.5 * job.cell.tool.orifice_m, lamps: &lamps, shades: &shades };
         let limit_w_m2 = tip_limit_w_m2(limit, resin.critical_exposure_j_m2.nominal, residence_s);
         let clear_m = tip.clear_m(limit_w_m2, albedo.nominal, 0.2);
-        let rise = (job.bed_from_part * nearest.tangent).z;
-        nearest.at_m + lights_on_after_m(clear_m, bed_m, rise)
+        let rise = (job.bed_from_part * station.tangent).z;
+        station.at_m + lights_on_after_m(clear_m, bed_m, rise)
     };
-    Some(TipDose { share, at_m: nearest.at_m, clear_after_m })
+    Some(TipDose { share, at_m: station.at_m, clear_after_m })
+}
+
+/// Heights above the bed at which light on the tip is looked at, up to [`FARTHEST_M`]; it peaks some millimetres up.
+const LOOKS: usize = 10;
+/// Past this height the bed throws nothing back that counts, m.
+const FARTHEST_M: f64 = 0.03;
+
+/// The lit station and height with most light on the tip: all heights passed with the lights on are looked at, not only
+/// those of stations.
+fn worst_height<'a>(
+    lit: &[&'a Station],
+    height: impl Fn(&Station) -> f64,
+    share: impl Fn(&Station, f64) -> f64,
+) -> Option<(&'a Station, f64)> {
+    let nearest = lit.iter().min_by(|a, b| height(a).total_cmp(&height(b)))?;
+    let low_m = height(nearest).max(1e-5);
+    let high_m = lit.iter().map(|station| height(station)).fold(low_m, f64::max).min(FARTHEST_M);
+    let looks =
+        (0..LOOKS).map(|k| low_m + (high_m - low_m).max(0.0) * k as f64 / (LOOKS - 1) as f64);
+    let at = |bed_m: f64| {
+        let near = |station: &&&Station| (height(station) - bed_m).abs();
+        let station = lit.iter().min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(nearest);
+        (*station, bed_m)
+    };
+    looks.map(at).max_by(|a, b| share(a.0, a.1).total_cmp(&share(b.0, b.1)))
 }

@@ -15,9 +15,10 @@ use crate::process::fed::{self, Fed};
 use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
 use crate::process::lit::{self, Lit};
-use crate::process::sag::stretched_sag_m;
+use crate::process::sag::LINEAR_LIMIT;
 use crate::process::section::round;
 use crate::process::soft_rod::{self, Sagged};
+use crate::process::stretch::held_sag_m;
 use crate::process::threads::Knotted;
 use crate::process::{
     self, Air, Blown, Course, Ends, Fidelity, Heats, Setting, StrandInput, StrandOutcome,
@@ -167,6 +168,8 @@ fn make_one(
     let course = course(job, path, leg);
     let (across_m_s2, down) = gravity_across(&course);
     let fed = feed(job, path, &course);
+    // A strand whose air goes off on the way is made without: its worst part is.
+    let unblown = strand.events.iter().any(|event| event.set == "air" && !event.on);
     let (speed_m_s, _) = mean_speed_and_flow(path);
     let input = StrandInput {
         fidelity: Fidelity::Full,
@@ -182,8 +185,8 @@ fn make_one(
         air: Air {
             temperature_k: job.air.temperature_k,
             room_m_s: job.air.speed_m_s,
-            jet: tool.air_jet,
-            blown: jets(tool, &course),
+            jet: tool.air_jet.filter(|_| !unblown),
+            blown: jets(tool, &course).filter(|_| !unblown),
         },
         light: tool.light_ring,
     };
@@ -244,10 +247,22 @@ struct Rod<'a> {
 const ROD_FROM: f64 = 0.1;
 
 impl Rod<'_> {
-    /// Sag A by the rod at all corners, where the closed form's nominal value is past a tenth of the bead.
+    /// Speed of the fastest twelfth of the stretch that hangs free, m/s; at least the mean.
+    fn fastest_m_s(&self) -> f64 {
+        const PARTS: usize = 12;
+        let [from_m, to_m] = self.stretch_m;
+        let step_m = (to_m - from_m) / PARTS as f64;
+        let time_s = |k: usize| self.course.time_at_s(from_m + step_m * k as f64);
+        let speeds = (0..PARTS).map(|k| step_m / (time_s(k + 1) - time_s(k)));
+        speeds.filter(|speed| speed.is_finite()).fold(self.input.speed_m_s, f64::max)
+    }
+
+    /// Sag A by the rod at all corners, where the closed form's nominal value is past a tenth of the bead, or would be at
+    /// the speed of the fastest stretch: it knows the mean speed alone.
     fn replaces(&self, outcome: &mut StrandOutcome) -> Option<Sagged> {
         let diameter_m = outcome.hot_diameter_m;
-        if !(outcome.sag_nozzle_m.nominal > ROD_FROM * diameter_m) {
+        let faster = self.fastest_m_s() / self.input.speed_m_s;
+        if !(outcome.sag_nozzle_m.nominal * faster.powi(4) > ROD_FROM * diameter_m) {
             return None;
         }
         let at = |corner| {
@@ -255,9 +270,12 @@ impl Rod<'_> {
             soft_rod::sag(input, self.course, material, self.heats, self.stretch_m, corner)
         };
         let (nominal, low, high) = (at(Corner::Nominal)?, at(Corner::Fast)?, at(Corner::Slow)?);
-        let stretched = |sagged: &Sagged| stretched_sag_m(sagged.greatest_m, diameter_m);
-        let (sag_m, linear) = stretched(&nominal);
-        outcome.sag_nozzle_m = Interval::new(sag_m, stretched(&low).0, stretched(&high).0);
+        let held = self.input.ends == Ends::BothHeld;
+        let sag_m = |sagged: &Sagged| {
+            if held { held_sag_m(sagged.greatest_m, diameter_m) } else { sagged.greatest_m }
+        };
+        let linear = sag_m(&nominal) <= LINEAR_LIMIT * diameter_m;
+        outcome.sag_nozzle_m = Interval::new(sag_m(&nominal), sag_m(&low), sag_m(&high));
         outcome.sag_linear = linear;
         outcome.laws.push("ageing rod");
         Some(nominal)

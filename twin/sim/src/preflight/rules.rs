@@ -6,6 +6,7 @@ use crate::cell::{Job, Join, On};
 use crate::deposit::Printed;
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::interval::Interval;
+use crate::process::angle::nozzle_angle_rad;
 use crate::process::coiling::{Folding, folding};
 use crate::process::feed::prime_time_s;
 use crate::process::{Ends, Setting};
@@ -259,7 +260,7 @@ impl Rules<'_> {
         let Some(limit_rad) = self.job.limits.nozzle_angle_rad else { return };
         let angle = |station: &crate::process::Station| {
             let axis = station.part_from_tool.rotation * crate::pose::Vector::z();
-            axis.angle(&-station.tangent)
+            nozzle_angle_rad(axis.into(), station.tangent.into())
         };
         let worst = self.result.course.stations.iter().max_by(|a, b| angle(a).total_cmp(&angle(b)));
         let Some(worst) = worst else { return };

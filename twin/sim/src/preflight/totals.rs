@@ -152,6 +152,9 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
 /// What the process rests on, and which laws nobody has the constants for.
 fn process_assumptions(job: &Job, say: &mut impl FnMut(&'static str, String)) {
     let mut law = |text: &str| say("process", text.to_owned());
+    if job.strands.iter().any(|strand| strand.events.iter().any(|event| event.set == "heater")) {
+        law("`heater` events are carried to the program but not simulated.");
+    }
     law(
         "sag behind the nozzle by closed forms up to a tenth of the bead, past it by the ageing rod; its growth with the fourth power of speed has no published measurement behind it.",
     );

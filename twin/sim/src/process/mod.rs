@@ -1,8 +1,18 @@
 //! What the process makes of a strand: bead, heat or light, setting, sag, shrinkage.
 //!
-//! One file to a law; [`strand`] puts them together for one strand. Everything depends on the age of a
-//! section, the time since it left the nozzle. Reference: `process-physics.md`; what it calls not
-//! established is not claimed here, and uncertain inputs come out as intervals.
+//! One file to a law; [`strand`] puts the closed forms together, [`fed`], [`lit`] and [`soft_rod`] follow a
+//! strand along its [`course`]. Everything depends on the age of a section, the time since it left the nozzle.
+//! Reference: `process-physics.md`; what it calls not established is not claimed here, and uncertain inputs come
+//! out as intervals.
+//!
+//! | what | files |
+//! | --- | --- |
+//! | flow in, bead out | `drive`, `feed`, `fed`, `bead`, `coiling`, `section`, `threads` |
+//! | heat | `heat`, `air_side`, `jet`, `radial` and `cooled`, `thermal`, `reheat`, `tait`, `viscosity` |
+//! | light | `lamp`, `shade`, `lights`, `dose` (with `sweep`, `steps`, `reach`, `memo`, `irradiance`), `through`, `bed_light`, `lit`; a ring by formula: `light`, `cure` |
+//! | resins | `kamal`, `kinetics`, `cured`, `oxygen`, `solid`, `clock`, `gel`, `yield_stress`, `tube`, `plastic_bending` |
+//! | sag | `sag`, `soft`, `rod` and `soft_rod`, `stretch`, `corotational`, `elastica`, `angle` |
+//! | joints, shrinkage | `contact`, `healing`, `shrinkage`, `age_samples` |
 
 pub mod age_samples;
 pub mod air_side;
@@ -82,6 +92,8 @@ mod tests;
 mod tests_bead;
 #[cfg(test)]
 mod tests_clock;
+#[cfg(test)]
+mod tests_course;
 #[cfg(test)]
 mod tests_cured;
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Sag behind the nozzle by the ageing rod: gravity as the part saw it, speed as it was, both ends
 //! through time.
 
+use super::corotational::{HeavyPiece, droop};
 use super::course::Course;
 use super::gel;
 use super::history::{Corner, light_set_s};
@@ -91,6 +92,10 @@ pub fn sag(
         fineness,
     };
     let outcome = print_strand(&strand).ok()?;
+    let span_m = stretch_m[1] - stretch_m[0];
+    if input.ends == Ends::StartHeld && outcome.sag_nozzle_m > LARGE * span_m {
+        return Some(drooped(&elements, &gravity(0.0), &table, stretch_m));
+    }
     let step_m = (stretch_m[1] - stretch_m[0]) / elements.len() as f64;
     let offsets = outcome.offset_m.iter().enumerate().map(|(k, offset)| {
         let across = elements[k.min(elements.len() - 1)].axes.across;
@@ -98,6 +103,46 @@ pub fn sag(
         (stretch_m[0] + step_m * k as f64, [way(0), way(1), way(2)])
     });
     Some(Sagged { greatest_m: outcome.sag_nozzle_m, offsets: offsets.collect() })
+}
+
+/// Sag over span past which slopes are no longer small.
+const LARGE: f64 = 0.3;
+
+/// A free stretch that hangs far down: the co-rotational rod with what has flowed frozen in, `E_eff = 1/J` (case
+/// EEFF-FROZEN). Where it finds no rest shape it hangs straight down: the greatest there can be.
+fn drooped(
+    elements: &[Element],
+    gravity_m_s2: &[f64; 3],
+    table: &AgeTable,
+    stretch_m: [f64; 2],
+) -> Sagged {
+    let e_pa = 1.0 / table.frozen_per_pa();
+    let piece = |element: &Element| HeavyPiece {
+        length_m: element.length_m,
+        bending_n_m2: e_pa * element.inertia_m4,
+        axial_n: e_pa * element.area_m2,
+        line_mass_kg_m: element.line_mass_kg_m,
+    };
+    let pieces: Vec<HeavyPiece> = elements.iter().map(piece).collect();
+    let along = elements[0].axes.along;
+    let step_m = (stretch_m[1] - stretch_m[0]) / elements.len() as f64;
+    let straight = |k: usize| along.map(|x| x * step_m * k as f64);
+    let rest = droop(&pieces, [0.0; 3], along, *gravity_m_s2, 1);
+    let strength = gravity_m_s2.iter().map(|g| g * g).sum::<f64>().sqrt();
+    let offset = |k: usize| -> [f64; 3] {
+        let from = straight(k);
+        match &rest {
+            Ok(points) => std::array::from_fn(|i| points[k][i] - from[i]),
+            Err(_) => {
+                std::array::from_fn(|i| gravity_m_s2[i] / strength * step_m * k as f64 - from[i])
+            }
+        }
+    };
+    let offsets: Vec<(f64, [f64; 3])> =
+        (0..=elements.len()).map(|k| (stretch_m[0] + step_m * k as f64, offset(k))).collect();
+    let size = |o: &[f64; 3]| o.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let greatest_m = offsets.iter().map(|(_, o)| size(o)).fold(0.0, f64::max);
+    Sagged { greatest_m, offsets }
 }
 
 /// Age from which nothing flows, s, and the fluidity `1/(3 η)` until then, 1/(Pa s).

@@ -50,7 +50,7 @@ fn abs() -> Material {
     )
 }
 
-fn pla() -> Material {
+pub(super) fn pla() -> Material {
     plastic(
         [1240.0, 1240.0, 210.0, 60.0, 155.0, 0.18, 3.5e9, 3.317_19e9, 20.194],
         range(6.8e-5, 4.1e-5, 8.5e-5),
@@ -68,7 +68,7 @@ fn carbon() -> Material {
     )
 }
 
-fn resin() -> Material {
+pub(super) fn resin() -> Material {
     let exact = Interval::exact;
     Material {
         density_kg_m3: exact(1200.0),
@@ -104,7 +104,7 @@ fn two_part() -> Material {
 }
 
 /// A 1.27 mm strand, 60 mm, 5 mm/s, in a jet of 5 m/s over 30 mm.
-fn strand() -> StrandInput {
+pub(super) fn strand() -> StrandInput {
     StrandInput {
         fidelity: Fidelity::ClosedForms,
         length_m: 0.06,
@@ -126,7 +126,7 @@ fn strand() -> StrandInput {
     }
 }
 
-fn ring() -> LightRing {
+pub(super) fn ring() -> LightRing {
     LightRing {
         leds: 8,
         distance_m: 0.025,
@@ -138,7 +138,7 @@ fn ring() -> LightRing {
     }
 }
 
-fn gel_strand() -> StrandInput {
+pub(super) fn gel_strand() -> StrandInput {
     StrandInput {
         speed_m_s: 0.002,
         flow_m3_s: bead::flow_m3_s(0.003, 0.002),
