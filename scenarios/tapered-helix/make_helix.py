@@ -23,10 +23,11 @@ HEAD = """// A helix of %.0f mm height, its radius shrinking from %.0f to %.0f m
   "process": {
     "speed_mm_s": 1.5,
     "flow": { "diameter_mm": 3.0 },
-    "prime_s": 0.8,
+    "prime_s": 2.8,
     "lights_after_mm": 3.0,
-    "overrun_mm": 1.5,
+    "overrun_mm": 1.7,
     "dwell_s": 10.0,
+    "post_cure_j_cm2": 20, // the UV box afterwards
     "approach_mm": 15,
     "retract_mm": 15,
     "orientation": { "follow": "tangent", "tilt": "per-axis", "tilt_from_deg": 20, "tilt_max_deg": 40, "spin": "free" },
