@@ -20,6 +20,8 @@ use crate::tools;
 enum Kind {
     /// A bridge printed too fast: mm/s.
     TooFast,
+    /// The fan that cools a bridge fails: m/s of its air.
+    NoAir,
     /// A hot end too cold to weld to a strand that is cold: °C.
     TooCold,
     /// A room so hot that the set bridge is soft: °C.
@@ -44,6 +46,8 @@ enum Kind {
     Thinned,
     /// The flow turned up in a bridge: mm³/s.
     Slack,
+    /// A flow between the levels that the drive has: mm³/s.
+    NoLevel,
     /// ABS where PLA was meant, in a free rod: its length, mm.
     WrongMaterial,
     /// Speed and flow told to change at once, faster than the extruder follows: how many times.
@@ -65,8 +69,9 @@ struct Expected {
 }
 
 impl Kind {
-    const ALL: [Self; 17] = [
+    const ALL: [Self; 19] = [
         Self::TooFast,
+        Self::NoAir,
         Self::TooCold,
         Self::TooHot,
         Self::LightOff,
@@ -79,6 +84,7 @@ impl Kind {
         Self::NoPrime,
         Self::Thinned,
         Self::Slack,
+        Self::NoLevel,
         Self::WrongMaterial,
         Self::Jumped,
         Self::Idle,
@@ -89,6 +95,7 @@ impl Kind {
     fn range(self) -> [f64; 2] {
         match self {
             Self::TooFast => [22.0, 12.0],
+            Self::NoAir => [0.3, 3.0],
             Self::TooCold => [187.0, 220.0],
             Self::TooHot => [90.0, 65.0],
             Self::LightOff => [8.0, 16.3],
@@ -101,6 +108,7 @@ impl Kind {
             Self::NoPrime => [0.1, 1.2],
             Self::Thinned => [0.8, 2.0],
             Self::Slack => [6.0, 3.3],
+            Self::NoLevel => [7.5, 5.65],
             Self::WrongMaterial => [180.0, 100.0],
             Self::Jumped => [4.0, 1.05],
             Self::Idle => [900.0, 200.0],
@@ -112,7 +120,9 @@ impl Kind {
         let of = |code, strand, says, at_mm| Expected { code, strand, says, at_mm };
         let start = Some([0.0, 0.5]);
         match self {
-            Self::TooFast => of("P301", "bridge", "behind the nozzle", Some([0.0, 20.0])),
+            Self::TooFast | Self::NoAir => {
+                of("P301", "bridge", "behind the nozzle", Some([0.0, 20.0]))
+            }
             Self::TooCold => of("P310", "second", "holds to `first`", start),
             Self::TooHot => of("P303", "bridge", "under its own weight", Some([59.0, 61.0])),
             // What the nozzle had left a little before is still in the light's way.
@@ -126,6 +136,7 @@ impl Kind {
             Self::NoPrime => of("P311", "rod", "`prime_s`", start),
             Self::Thinned => of("P302", "bridge", "is drawn at", None),
             Self::Slack => of("P302", "bridge", "more was fed", Some([9.0, 11.0])),
+            Self::NoLevel => of("P307", "rod", "wide as drawn", None),
             Self::WrongMaterial => of("P304", "rod", "at its free end", Some([x - 1.0, x])),
             // Where it was told to change, and what is printed in a lag after that.
             Self::Jumped => of("P307", "rod", "wide as drawn", Some([15.0, 17.0])),
@@ -202,8 +213,8 @@ fn plant(kind: Kind, folder: &Path) -> Result<Vec<f64>, String> {
         return Err(format!("{kind:?}: errors without the fault: {:#?}", told(&sound)));
     }
     let [deep, none] = kind.range();
-    let far = aim(kind, [deep, none], [1.06, 1.098], folder)?;
-    let near = aim(kind, [far, none], [1.002, 1.03], folder)?;
+    let far = aim(kind, [deep, none], [1.05, 1.098], folder)?;
+    let near = aim(kind, [far, none], [1.002, 1.035], folder)?;
     let between = |from: f64, to: f64, share: f64| from * (to / from).powf(share);
     let deep = (0..DEEP).map(|k| between(deep, far, k as f64 / DEEP as f64));
     let near = (0..NEAR).map(|k| between(far, near, k as f64 / (NEAR - 1) as f64));

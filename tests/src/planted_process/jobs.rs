@@ -21,7 +21,16 @@ pub(super) fn sound(kind: Kind) -> Files {
 pub(super) fn files(kind: Kind, x: f64) -> Files {
     let alone = |text: String| vec![("job.slam", text)];
     match kind {
-        Kind::TooFast => alone(bridge(10.0, "", &format!(r#""speed_mm_s": {x}"#))),
+        Kind::TooFast => alone(bridge("printer-3axis", 10.0, "", &format!(r#""speed_mm_s": {x}"#))),
+        Kind::NoAir => {
+            let [fan, weak] = ["[3, 1, 6]".to_owned(), format!("[{x}, {}, {}]", x / 3.0, 2.0 * x)];
+            let [library, own] = ["\"printer-hot-end\"", "\"tool.toml\""];
+            vec![
+                ("tool.toml", with("robots/tools/printer-hot-end.toml", &fan, &weak)),
+                ("cell.toml", with("robots/cells/printer-3axis.toml", library, own)),
+                ("job.slam", bridge("cell.toml", 10.0, "", r#""speed_mm_s": 14"#)),
+            ]
+        }
         Kind::TooCold => {
             let hot = "value = 240.0\nlow = 220.0\nhigh = 260.0";
             let cold = format!("value = {x}\nlow = {}\nhigh = {}", x - 5.0, x + 5.0);
@@ -35,7 +44,7 @@ pub(super) fn files(kind: Kind, x: f64) -> Files {
         }
         Kind::TooHot => {
             let air = format!(r#""environment": {{"air_c": {x}}}, "#);
-            alone(bridge(60.0, &air, r#""speed_mm_s": 2"#))
+            alone(bridge("printer-3axis", 60.0, &air, r#""speed_mm_s": 2"#))
         }
         Kind::LightOff => {
             let off = format!(r#", "events": [{{"at_s": {x}, "set": "light", "to": "off"}}]"#);
@@ -69,7 +78,11 @@ pub(super) fn files(kind: Kind, x: f64) -> Files {
         }
         Kind::Thinned | Kind::Slack => {
             let fed = format!(r#""speed_mm_s": 3, "flow": {{"rate_mm3_s": {x}}}"#);
-            alone(bridge(10.0, "", &fed))
+            alone(bridge("printer-3axis", 10.0, "", &fed))
+        }
+        Kind::NoLevel => {
+            let told = format!(r#", "flow": {{"rate_mm3_s": {x}}}"#);
+            alone(lit("kirkman-sda10d", 0.2, OVERRUN_MM, &told))
         }
         Kind::WrongMaterial => alone(rod_of("abs", x, "")),
         Kind::Jumped => {
@@ -122,13 +135,13 @@ fn job(cell: &str, material: &str, before: &str, strands: &str, after: &str) -> 
 }
 
 /// A bridge between two posts that stand this far from the middle.
-fn bridge(half_mm: f64, before: &str, how: &str) -> String {
+fn bridge(cell: &str, half_mm: f64, before: &str, how: &str) -> String {
     let strands = format!(
         r#"{{"id": "post1", "points_mm": [[-{half_mm}, 0, 0], [-{half_mm}, 0, 10]], "speed_mm_s": 3}},
 {{"id": "post2", "points_mm": [[{half_mm}, 0, 0], [{half_mm}, 0, 10]], "speed_mm_s": 3}},
 {{"id": "bridge", "points_mm": [[-{half_mm}, 0, 10], [{half_mm}, 0, 10]], {how}}}"#
     );
-    job("printer-3axis", "pla", before, &strands, "")
+    job(cell, "pla", before, &strands, "")
 }
 
 /// A melt's rod straight up, its end free.
