@@ -48,6 +48,10 @@ pub struct MaterialFile {
 /// How a material sets.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a material has one; boxing it would only blur the file's shape"
+)]
 pub enum SettingFile {
     /// By cooling.
     Thermoplastic {

@@ -99,9 +99,13 @@ pub(super) fn tip_dose(
     (diameter_m, speed_m_s): (f64, f64),
 ) -> Option<TipDose> {
     let length_m = course.length_m();
+    // Stations lie millimetres apart: where the lights go on is one of its own.
+    let begins: Vec<Station> =
+        course.lit().iter().filter_map(|on| course.station_at(on[0])).collect();
     let lit: Vec<&Station> = course
         .stations
         .iter()
+        .chain(&begins)
         .filter(|station| station.at_m <= length_m && course.lit_at(station.time_s))
         .collect();
     let height = |station: &Station| {

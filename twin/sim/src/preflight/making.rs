@@ -219,6 +219,7 @@ fn shine(
         length_m: path.length_m,
         second_pass_m_s: strand.settings.second_pass_m_s,
         post_cure_j_m2: strand.settings.post_cure_j_m2,
+        resting: strand.on != On::Air,
         temperature_k: job.air.temperature_k,
     };
     let lit = lit::shine(course, resin, &exposure);

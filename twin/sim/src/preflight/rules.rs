@@ -216,7 +216,7 @@ impl Rules<'_> {
             let step_m = pair[1].at_m - pair[0].at_m;
             if pair[0].tangent.dot(&up).abs() < LEVEL {
                 level_m += step_m;
-                lit_m += if course.lit_at(pair[0].time_s) { step_m } else { 0.0 };
+                lit_m += step_m * course.lit_share(pair[0].time_s, pair[1].time_s);
             }
         }
         if level_m <= 0.0 {
@@ -258,6 +258,10 @@ impl Rules<'_> {
     /// P309: the angle between nozzle and strand (Yu's θ), where the cell bounds it. As a share of the limit.
     fn nozzle_angle(&self, findings: &mut Findings) {
         let Some(limit_rad) = self.job.limits.nozzle_angle_rad else { return };
+        // What is laid on bed or form is pressed on: no such rule there.
+        if self.job.strands[self.result.strand].on != On::Air {
+            return;
+        }
         let angle = |station: &crate::process::Station| {
             let axis = station.part_from_tool.rotation * crate::pose::Vector::z();
             nozzle_angle_rad(axis.into(), station.tangent.into())

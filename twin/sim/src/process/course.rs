@@ -64,6 +64,33 @@ impl Course {
         }
     }
 
+    /// The nozzle at a time: places straight in between, directions those of the station before.
+    pub fn station_at(&self, time_s: f64) -> Option<Station> {
+        let k = self.stations.partition_point(|station| station.time_s <= time_s);
+        let from = *self.stations.get(k.saturating_sub(1))?;
+        let Some(to) = self.stations.get(k).filter(|_| k > 0) else { return Some(from) };
+        let share = (time_s - from.time_s) / (to.time_s - from.time_s);
+        let moved = |a: Pose, b: &Pose| {
+            let offset = a.translation.vector.lerp(&b.translation.vector, share);
+            Pose::from_parts(offset.into(), a.rotation)
+        };
+        Some(Station {
+            at_m: from.at_m + (to.at_m - from.at_m) * share,
+            time_s,
+            point: from.point + (to.point - from.point) * share,
+            part_from_tool: moved(from.part_from_tool, &to.part_from_tool),
+            part_from_room: moved(from.part_from_room, &to.part_from_room),
+            ..from
+        })
+    }
+
+    /// Share of a stretch of time in which the lights are on.
+    pub fn lit_share(&self, from_s: f64, to_s: f64) -> f64 {
+        let overlap = |on: &[f64; 2]| (on[1].min(to_s) - on[0].max(from_s)).max(0.0);
+        let lit_s: f64 = self.lit().iter().map(overlap).sum();
+        if to_s > from_s { lit_s / (to_s - from_s) } else { 0.0 }
+    }
+
     /// Direction of travel at an arc length.
     pub fn tangent_at(&self, at_m: f64) -> Vector {
         let k = self.stations.partition_point(|station| station.at_m <= at_m);
@@ -135,6 +162,17 @@ mod tests {
             assert!((course.time_at_s(at_m) - time_s).abs() < 1e-12, "{at_m}");
         }
         assert_eq!(course.length_m(), 0.03);
+    }
+
+    #[test]
+    fn the_nozzle_is_found_at_a_time() {
+        let course = course();
+        for (time_s, at_m) in [(-1.0, 0.0), (0.0, 0.0), (3.0, 0.015), (6.0, 0.03), (9.0, 0.03)] {
+            let station = course.station_at(time_s).expect("stations");
+            assert!((station.at_m - at_m).abs() < 1e-12, "{time_s}");
+            assert!((station.point.x - at_m).abs() < 1e-12, "{time_s}");
+        }
+        assert!((course.lit_share(0.0, 4.0) - 0.5).abs() < 1e-12);
     }
 
     #[test]

@@ -170,7 +170,7 @@ mod tests {
                 feed(&course(Vec::new()), 0.2, &extruder(lag_s), thinnest, |_| (FLOW, 0.01))
                     .prime_needed_s;
             let at_first = |prime_s: f64| {
-                let told = vec![Switch { from_s: -prime_s, value: FLOW }];
+                let told = [Switch { from_s: -prime_s, value: FLOW }];
                 let answers = Feed { lag_s, drive: Drive::Any };
                 let steps = told.iter().map(|told| (told.from_s, told.value)).collect();
                 let flow = answers.deliver(&Told::new(steps)).flow_m3_s(0.0);

@@ -51,6 +51,9 @@ pub struct Exposure<'a> {
     pub second_pass_m_s: Option<f64>,
     /// Dose of a post-cure from all around, J/m².
     pub post_cure_j_m2: Option<f64>,
+    /// Whether it lies on something: its underside is then not held against it, and depth is that of the even shell
+    /// of the same area.
+    pub resting: bool,
     /// Temperature of the strand, K.
     pub temperature_k: f64,
 }
@@ -156,7 +159,7 @@ fn at_corner(
             });
             Made {
                 dose_j_m2: dose.mean_j_m2(),
-                depth_m: cured.least_depth_m,
+                depth_m: if exposure.resting { cured.mean_depth_m } else { cured.least_depth_m },
                 gel_s: dose.mean_gel_s,
                 area: cured.area_fraction,
                 stiffness: cured.stiffness_fraction,

@@ -145,14 +145,17 @@ fn drooped(
     Sagged { greatest_m, offsets }
 }
 
+/// Fluidity `1/(3 η)`, 1/(Pa s), at an age, s.
+type Fluidity<'a> = Box<dyn Fn(f64) -> f64 + 'a>;
+
 /// Age from which nothing flows, s, and the fluidity `1/(3 η)` until then, 1/(Pa s).
 fn flow_law<'a>(
     input: &'a StrandInput,
     material: &'a Material,
     heats: &'a Heats,
     corner: Corner,
-) -> Option<(f64, Box<dyn Fn(f64) -> f64 + 'a>)> {
-    let (rigid_s, law): (f64, Box<dyn Fn(f64) -> f64 + 'a>) = match &material.setting {
+) -> Option<(f64, Fluidity<'a>)> {
+    let (rigid_s, law): (f64, Fluidity<'a>) = match &material.setting {
         Setting::Thermoplastic(plastic) => {
             let heat = heats.at(corner)?;
             let factor = corner.helpful(plastic.viscosity.factor);
