@@ -36,6 +36,11 @@ fn abs() -> Material {
         k_w_mk: exact(0.19),
         emissivity: exact(0.92),
         setting: Setting::Thermoplastic(sim::process::Thermoplastic {
+            heat: None,
+            tait: None,
+            weld: None,
+            surface_tension_n_m: None,
+            melt_life_s: None,
             extrusion_k: exact(513.15),
             melt_density_kg_m3: exact(930.0),
             glass_k: exact(378.15),
@@ -49,6 +54,7 @@ fn abs() -> Material {
 fn closed_forms(criterion: &mut Criterion) {
     let jet = Jet { speed_m_s: Interval::new(10.0, 5.0, 20.0), reach_m: 0.03 };
     let input = StrandInput {
+        fidelity: sim::process::Fidelity::ClosedForms,
         length_m: 0.06,
         span_m: 0.06,
         speed_m_s: SPEED,
@@ -58,7 +64,7 @@ fn closed_forms(criterion: &mut Criterion) {
         gravity_across_m_s2: 9.81,
         ends: Ends::BothHeld,
         dwell_s: 0.0,
-        air: Air { temperature_k: 296.15, room_m_s: 0.0, jet: Some(jet) },
+        air: Air { temperature_k: 296.15, room_m_s: 0.0, jet: Some(jet), blown: None },
         light: None,
     };
     let material = abs();
