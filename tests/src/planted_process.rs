@@ -130,7 +130,7 @@ impl Kind {
             Self::LightLate => of("P305", "rod", "uncured core", Some([0.0, x])),
             Self::RingTurned => of("P305", "rod", "uncured core", None),
             Self::RingAimed => of("P306", "rod", "sets", None),
-            Self::BrightBed => of("P308", "rod", "on the nozzle's tip", start),
+            Self::BrightBed => of("P308", "rod", "on the nozzle's tip", Some([0.0, 12.0])),
             Self::NoDwell => of("P304", "rod", "at its free end", Some([179.0, 180.0])),
             Self::NoOverrun => of("P311", "rod", "`overrun_mm`", Some([29.0, 30.0])),
             Self::NoPrime => of("P311", "rod", "`prime_s`", start),

@@ -55,10 +55,10 @@ pub(super) fn files(kind: Kind, x: f64) -> Files {
             alone(lit("kirkman-sda10d", 0.2, OVERRUN_MM, &late))
         }
         Kind::RingTurned => ring("angle_deg = 45\n", &format!("angle_deg = {x}\n")),
-        Kind::RingAimed => ring("aim_mm = 2.0", &format!("aim_mm = {x}")),
+        Kind::RingAimed => ring("aim_mm = 2.5", &format!("aim_mm = {x}")),
         Kind::BrightBed => {
             let bright = format!("albedo = [{x}, {}, {}]", 0.8 * x, 1.2 * x);
-            let dark = "albedo = [0.05, 0.02, 0.1]";
+            let dark = "albedo = [0.04, 0.02, 0.1]";
             vec![
                 ("cell.toml", with("robots/cells/kirkman-sda10d.toml", dark, &bright)),
                 ("job.slam", lit("cell.toml", 1.0, OVERRUN_MM, "")),
