@@ -246,7 +246,9 @@ impl Rules<'_> {
                 "puts {:.2} of a critical exposure ({:.2} to {:.2}) on the nozzle's tip while a bead passes",
                 tip.share.nominal, tip.share.low, tip.share.high
             );
-            let fix = if tip.clear_after_m.is_finite() {
+            let fix = if tip.share.nominal <= limit {
+                "only the bad ends of lamp, resin and bed fail: measure the critical exposure and what the bed throws back".to_owned()
+            } else if tip.clear_after_m.is_finite() {
                 format!("switch the lights on later: `\"lights_after_mm\": {:.1}`", (tip.clear_after_m * 1e3).max(0.1))
             } else {
                 "shade the tip, aim the lamps lower, or darken the bed".to_owned()
