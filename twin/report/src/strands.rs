@@ -3,9 +3,8 @@
 use sim::cell::Job;
 use sim::deposit::Printed;
 use sim::preflight::StrandResult;
+use sim::process::History;
 use sim::process::feed::sphere_diameter_m;
-use sim::process::history::Corner;
-use sim::process::{Heats, History};
 
 use crate::fill::number;
 use crate::results::Ageing;
@@ -17,11 +16,10 @@ const POINTS: usize = 65;
 
 /// Thinnest and widest bead over what was asked, away from the ends.
 pub(crate) fn bead_share(job: &Job, result: &StrandResult) -> Option<[f64; 2]> {
-    let end_m = 2.0 * result.outcome.hot_diameter_m;
-    let settings = &job.strands[result.strand].settings;
-    let ramp_m = job.cell.controller.ramp(settings.speed_m_s).1 + end_m;
-    let beads = result.fed.away_from_ends(result.input.length_m, [ramp_m, ramp_m]);
-    let shares = beads.map(|at| at.bead.hot_m / at.asked_m).filter(|share| share.is_finite());
+    let shares = result
+        .steady_beads(job)
+        .map(|at| at.bead.hot_m / at.asked_m)
+        .filter(|share| share.is_finite());
     shares.fold(None, |ends: Option<[f64; 2]>, share| {
         let [low, high] = ends.unwrap_or([share, share]);
         Some([low.min(share), high.max(share)])
@@ -38,7 +36,6 @@ pub(crate) fn blobs_m(result: &StrandResult) -> [Option<f64>; 3] {
 pub(crate) fn ageing(job: &Job, result: &StrandResult) -> Ageing {
     let (input, material) = (&result.input, &job.material);
     let history = History::new(input, material);
-    let heats = Heats::new(input, material);
     let cure = result.lit.as_ref().and_then(|lit| lit.cure.as_ref());
     let set_s = result.outcome.set_time_s.nominal;
     let last_s = if set_s.is_finite() { (3.0 * set_s).clamp(1.0, 3600.0) } else { 60.0 };
@@ -47,7 +44,7 @@ pub(crate) fn ageing(job: &Job, result: &StrandResult) -> Ageing {
     let told = |value: &dyn Fn(f64) -> f64| age_s.iter().map(|&a| number(value(a))).collect();
     Ageing {
         temperature_k: told(&|a| history.temperature_k(a)),
-        core_k: heats.at(Corner::Nominal).map_or(Vec::new(), |heat| told(&|a| heat.core_k(a))),
+        core_k: age_s.iter().filter_map(|&a| history.core_k(a)).map(number).collect(),
         cure: cure.map_or(Vec::new(), |cure| told(&|a| cure.at(a))),
         modulus_pa: told(&|a| history.modulus_pa(a)),
         age_s,

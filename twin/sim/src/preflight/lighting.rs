@@ -166,5 +166,7 @@ fn worst_height<'a>(
         let station = lit.iter().min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(nearest);
         (*station, bed_m)
     };
-    looks.map(at).max_by(|a, b| share(a.0, a.1).total_cmp(&share(b.0, b.1)))
+    let shares = looks.map(at).map(|(station, bed_m)| (station, bed_m, share(station, bed_m)));
+    let (station, bed_m, _) = shares.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    Some((station, bed_m))
 }

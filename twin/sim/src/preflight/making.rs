@@ -11,7 +11,7 @@ use crate::motion::{Leg, Motion};
 use crate::pose::{Point, Vector};
 use crate::process::bead::Orifice;
 use crate::process::drive::Drive;
-use crate::process::fed::{self, Fed};
+use crate::process::fed::{self, BeadAt, Fed};
 use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
 use crate::process::lit::{self, Lit};
@@ -48,6 +48,16 @@ pub struct StrandResult {
     pub sagged: Option<Sagged>,
     /// What the lights made of it; resins only.
     pub lit: Option<Lit>,
+}
+
+impl StrandResult {
+    /// Beads away from the stretches at both ends where arm and flow are still getting up to speed.
+    pub fn steady_beads(&self, job: &Job) -> impl Iterator<Item = &BeadAt> {
+        let settings = &job.strands[self.strand].settings;
+        let (_, ramp_m) = job.cell.controller.ramp(settings.speed_m_s);
+        let end_m = ramp_m + 2.0 * self.outcome.hot_diameter_m;
+        self.fed.away_from_ends(self.input.length_m, [end_m, end_m])
+    }
 }
 
 /// Makes every strand, in printing order, and judges it.
@@ -304,7 +314,7 @@ fn feed(job: &Job, path: &Path, course: &Course) -> Fed {
         (flow_m3_s, speed_m_s)
     };
     let extruder = fed::Extruder { lag_s, drive, orifice };
-    fed::feed(course, path.length_m, &extruder, 1.0 - job.limits.bead_band, asked)
+    fed::feed(course, path.length_m, &extruder, asked)
 }
 
 /// Length of strand behind the nozzle along which jets told one by one are looked for, m.

@@ -57,19 +57,11 @@ impl Rules<'_> {
         self.result.input.length_m
     }
 
-    /// Stretches at both ends where arm and flow are still getting up to speed, m.
-    fn ends_m(&self) -> [f64; 2] {
-        let diameter_m = self.result.outcome.hot_diameter_m;
-        let settings = &self.job.strands[self.result.strand].settings;
-        let (_, ramp_m) = self.job.cell.controller.ramp(settings.speed_m_s);
-        [ramp_m + 2.0 * diameter_m, ramp_m + 2.0 * diameter_m]
-    }
-
     /// P302: draw ratio outside its band; the worst bead speaks. Measured as the share of the nearer limit.
     fn draw_ratio(&self, findings: &mut Findings) {
         let [low, high] = self.job.limits.draw_ratio;
         let past = |ratio: f64| (ratio / high).max(low / ratio);
-        let beads = self.result.fed.away_from_ends(self.length_m(), self.ends_m());
+        let beads = self.result.steady_beads(self.job);
         let worst =
             beads.max_by(|a, b| past(a.bead.draw_ratio).total_cmp(&past(b.bead.draw_ratio)));
         let Some(worst) = worst else { return };
@@ -123,7 +115,7 @@ impl Rules<'_> {
     /// P307: bead wider or narrower than asked, away from the ends.
     fn bead(&self, findings: &mut Findings) {
         let off = |at: &crate::process::fed::BeadAt| (at.bead.hot_m / at.asked_m - 1.0).abs();
-        let beads = self.result.fed.away_from_ends(self.length_m(), self.ends_m());
+        let beads = self.result.steady_beads(self.job);
         let Some(worst) = beads.max_by(|a, b| off(a).total_cmp(&off(b))) else { return };
         let measured = Interval::exact(off(worst));
         self.check(Code::P307, worst.at_m, (measured, self.job.limits.bead_band), findings, || {

@@ -4,7 +4,7 @@
 use super::bead::{self, Bead, Orifice, beads};
 use super::course::Course;
 use super::drive::Drive;
-use super::feed::{Blobs, Delivered, Feed, Told, prime_time_s};
+use super::feed::{Blobs, Delivered, Feed, Told};
 
 /// An extruder with the nozzle it feeds.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,21 +37,17 @@ pub struct Fed {
     pub mean_flow_m3_s: f64,
     /// What came out at rest, before, at the end and after.
     pub blobs: Blobs,
-    /// Priming needed for a first bead not thinner than the share asked for, s.
-    pub prime_needed_s: f64,
     /// Share of the flow's lag that stays at the ends: beads nearer to an end than this are its ramp, m.
     pub ramp_m: f64,
 }
 
 /// Feeds a strand of `length_m` along its course; `asked` gives flow m³/s and speed m/s told at an arc length.
 ///
-/// Mass balance on stretches of one bead's length, on the nozzle's true times and the lagged flow. `thinnest` is
-/// the share of its diameter that the first bead must have. O(n) in stretches and stations.
+/// Mass balance on stretches of one bead's length, on the nozzle's true times and the lagged flow. O(n) in stretches and stations.
 pub fn feed(
     course: &Course,
     length_m: f64,
     extruder: &Extruder,
-    thinnest: f64,
     asked: impl Fn(f64) -> (f64, f64),
 ) -> Fed {
     let told = Told::new(course.flow.iter().map(|told| (told.from_s, told.value)).collect());
@@ -60,14 +56,11 @@ pub fn feed(
     let (begin_s, end_s) = (course.time_at_s(0.0), course.time_at_s(length_m));
     let primes_s = course.flow.first().map_or(begin_s, |told| told.from_s.min(begin_s));
     let left_s = end_s + course.dwell_s;
-    let (first_m3_s, speed_m_s) = asked(f64::NEG_INFINITY);
-    let given_m3_s = extruder.drive.given_m3_s(first_m3_s);
-    let share = (thinnest * thinnest).clamp(0.0, 1.0 - 1e-9);
+    let (_, speed_m_s) = asked(f64::NEG_INFINITY);
     Fed {
         beads: laid(course, length_m, &delivered, &extruder.orifice, &asked),
         mean_flow_m3_s: delivered.volume_m3(begin_s, end_s) / (end_s - begin_s),
         blobs: delivered.blobs(primes_s, begin_s, end_s, left_s, f64::INFINITY),
-        prime_needed_s: prime_time_s(extruder.lag_s, 0.0, given_m3_s, share),
         ramp_m: 3.0 * extruder.lag_s * speed_m_s,
     }
 }
@@ -116,6 +109,7 @@ impl Fed {
 mod tests {
     use super::super::course::Station;
     use super::super::course::Told as Switch;
+    use super::super::feed::prime_time_s;
     use super::*;
     use crate::pose::{Point, Pose, Vector};
 
@@ -144,7 +138,7 @@ mod tests {
     #[test]
     fn where_the_arm_is_twice_as_fast_the_bead_has_half_the_area() {
         let told = vec![Switch { from_s: 0.0, value: FLOW }, Switch { from_s: 15.0, value: 0.0 }];
-        let fed = feed(&course(told), 0.2, &extruder(0.0), 0.9, |_| (FLOW, 0.01));
+        let fed = feed(&course(told), 0.2, &extruder(0.0), |_| (FLOW, 0.01));
         let slow = fed.beads[3].bead.hot_m;
         let fast = fed.beads[fed.beads.len() - 3].bead.hot_m;
         assert!((slow / fed.beads[3].asked_m - 1.0).abs() < 1e-12);
@@ -156,7 +150,7 @@ mod tests {
     #[test]
     fn all_that_comes_is_bead_or_blob() {
         let told = vec![Switch { from_s: -2.0, value: FLOW }, Switch { from_s: 15.0, value: 0.0 }];
-        let fed = feed(&course(told), 0.2, &extruder(1.5), 0.9, |_| (FLOW, 0.01));
+        let fed = feed(&course(told), 0.2, &extruder(1.5), |_| (FLOW, 0.01));
         let beads: f64 = fed.beads.iter().map(|at| at.bead.volume_m3).sum();
         let blobs = fed.blobs.start_m3 + fed.blobs.end_m3 + fed.blobs.ooze_m3;
         assert!((beads + blobs - FLOW * 17.0).abs() < 1e-18, "{}", beads + blobs);
@@ -166,9 +160,7 @@ mod tests {
     fn primed_as_told_the_first_bead_is_as_wide_as_asked_for() {
         for lag_s in [0.1, 2.0] {
             let thinnest = 0.9;
-            let needed_s =
-                feed(&course(Vec::new()), 0.2, &extruder(lag_s), thinnest, |_| (FLOW, 0.01))
-                    .prime_needed_s;
+            let needed_s = prime_time_s(lag_s, 0.0, FLOW, thinnest * thinnest);
             let at_first = |prime_s: f64| {
                 let told = [Switch { from_s: -prime_s, value: FLOW }];
                 let answers = Feed { lag_s, drive: Drive::Any };

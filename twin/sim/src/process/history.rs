@@ -109,6 +109,14 @@ impl History {
         }
     }
 
+    /// Temperature on the axis at an age, K; `None` but of a thermoplastic.
+    pub fn core_k(&self, age_s: f64) -> Option<f64> {
+        match &self.law {
+            Law::Heat { heat, .. } => Some(heat.core_k(age_s)),
+            Law::Light { .. } | Law::Clock { .. } => None,
+        }
+    }
+
     /// Young's modulus at an age, Pa, of what is solid; zero where nothing is.
     ///
     /// Thermoplastic: through the glass transition to the rubbery plateau, never zero. Photopolymer: by
