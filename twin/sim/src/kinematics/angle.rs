@@ -23,7 +23,13 @@ impl Angle {
 
     /// Direction of `(cos, sin)`, of any length; zero where both are.
     pub(super) fn towards(sin: f64, cos: f64) -> Self {
-        let (sin, cos) = unit(sin, cos);
+        Self::along(sin, cos, (sin * sin + cos * cos).sqrt())
+    }
+
+    /// Direction of `(cos, sin)`, whose length is known; zero where both are.
+    #[inline]
+    pub(super) fn along(sin: f64, cos: f64, length: f64) -> Self {
+        let (sin, cos) = scaled(sin, cos, length);
         Self { rad: arctangent(sin, cos), sin, cos }
     }
 
@@ -66,7 +72,11 @@ impl Angle {
 
 /// Sine and cosine brought to length one; `(0, 1)` where there is no direction.
 pub(super) fn unit(sin: f64, cos: f64) -> (f64, f64) {
-    let length = (sin * sin + cos * cos).sqrt();
+    scaled(sin, cos, (sin * sin + cos * cos).sqrt())
+}
+
+#[inline]
+fn scaled(sin: f64, cos: f64, length: f64) -> (f64, f64) {
     let inverse = 1.0 / length;
     if length > 1e-100 { (sin * inverse, cos * inverse) } else { (0.0, 1.0) }
 }

@@ -27,16 +27,17 @@ const SERIES: [f64; 11] = [
 ];
 
 /// Where each eighth of the circle's upper half counts its angle from, what that falls short of the true
-/// multiple of π/4, and which way it counts: by left (4), steep (2), beyond tan(π/8) (1).
-const EIGHTHS: [[f64; 3]; 8] = [
-    [0.0, 0.0, 1.0],
-    [FRAC_PI_4, PI_4_REST, 1.0],
-    [FRAC_PI_2, 2.0 * PI_4_REST, -1.0],
-    [FRAC_PI_4, PI_4_REST, -1.0],
-    [PI, 4.0 * PI_4_REST, -1.0],
-    [3.0 * FRAC_PI_4, THREE_REST, -1.0],
-    [FRAC_PI_2, 2.0 * PI_4_REST, 1.0],
-    [3.0 * FRAC_PI_4, THREE_REST, 1.0],
+/// multiple of π/4, which way it counts, and whether it is beyond tan(π/8): by left (4), steep (2), beyond
+/// (1).
+const EIGHTHS: [[f64; 4]; 8] = [
+    [0.0, 0.0, 1.0, 0.0],
+    [FRAC_PI_4, PI_4_REST, 1.0, 1.0],
+    [FRAC_PI_2, 2.0 * PI_4_REST, -1.0, 0.0],
+    [FRAC_PI_4, PI_4_REST, -1.0, 1.0],
+    [PI, 4.0 * PI_4_REST, -1.0, 0.0],
+    [3.0 * FRAC_PI_4, THREE_REST, -1.0, 1.0],
+    [FRAC_PI_2, 2.0 * PI_4_REST, 1.0, 0.0],
+    [3.0 * FRAC_PI_4, THREE_REST, 1.0, 1.0],
 ];
 
 /// The angle of `(x, y)` in [−π, π], rad, to 5e-16; of finite numbers, signs of zeros as IEEE 754 has them.
@@ -48,12 +49,14 @@ const EIGHTHS: [[f64; 3]; 8] = [
 pub(super) fn arctangent(y: f64, x: f64) -> f64 {
     let (across, along) = (y.abs(), x.abs());
     let steep = across > along;
-    let (low, high) = if steep { (along, across) } else { (across, along) };
+    // Each in the order that hands on what is no number, and needs no jump.
+    let low = if across < along { across } else { along };
+    let high = if along > across { along } else { across };
     let beyond = low > TAN_PI_8 * high;
-    let k = f64::from(u8::from(beyond));
-    let ratio = (low - k * high) / (high + k * low).max(f64::MIN_POSITIVE);
     let left = usize::from(x.is_sign_negative());
-    let [from, short, way] = EIGHTHS[4 * left + 2 * usize::from(steep) + usize::from(beyond)];
+    let eighth = 4 * left + 2 * usize::from(steep) + usize::from(beyond);
+    let [from, short, way, k] = EIGHTHS[eighth];
+    let ratio = (low - k * high) / (high + k * low).max(f64::MIN_POSITIVE);
     (from + (way * (ratio + ratio * series(ratio * ratio)) + short)).copysign(y)
 }
 

@@ -59,10 +59,7 @@ impl Gate<'_> {
             self.push(turns, branch, error, SAME);
             return;
         }
-        let mut q = Posture::zeros(turns.len());
-        for (value, turns) in q.iter_mut().zip(turns) {
-            *value = turns.first;
-        }
+        let q = firsts(turns);
         let same = if self.exact { SAME } else { SAME_POLISHED };
         self.keep_polished(q, branch, same);
     }
@@ -105,20 +102,17 @@ impl Gate<'_> {
         let met = self.close && self.out.iter().any(twin);
         let out = &mut *self.out;
         let known = out.len();
-        let mut q = Posture::zeros(turns.len());
-        for (value, turns) in q.iter_mut().zip(turns) {
-            *value = turns.first;
-        }
+        let q = firsts(turns);
         out.push(Solution { q, branch, position_error_m: error.m, rotation_error_rad: error.rad });
         // Each joint repeats all there is so far, a turn further.
         for (index, turns) in turns.iter().enumerate().filter(|(_, turns)| turns.more > 0) {
             let block = known..out.len();
             for turn in 1..=turns.more {
                 let further = (turns.first + f64::from(turn) * TAU).min(axes[index].upper);
-                for copied in block.clone() {
-                    let mut solution = out[copied];
-                    solution.q[index] = further;
-                    out.push(solution);
+                let copies = out.len();
+                out.extend_from_within(block.clone());
+                for copy in &mut out[copies..] {
+                    copy.q[index] = further;
                 }
             }
         }
@@ -131,4 +125,13 @@ impl Gate<'_> {
             }
         }
     }
+}
+
+/// The least value of every joint.
+fn firsts(turns: &[Turns]) -> Posture {
+    let mut q = Posture::zeros(turns.len());
+    for (value, turns) in q.iter_mut().zip(turns) {
+        *value = turns.first;
+    }
+    q
 }

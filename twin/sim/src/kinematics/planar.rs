@@ -56,11 +56,11 @@ pub(super) fn swing(x: f64, y: f64, side: f64, free: f64, play: Play) -> Option<
         return Some([(Angle::of(free), 0.0), (Angle::of(free + PI), -0.0)]);
     }
     let forward = ((radius - side) * (radius + side)).max(0.0).sqrt().max(play.spread);
-    Some(
-        [forward, -forward].map(|forward| {
-            (Angle::towards(y * forward - x * side, x * forward + y * side), forward)
-        }),
-    )
+    let length = radius * (forward * forward + side * side).sqrt();
+    Some([forward, -forward].map(|forward| {
+        let (sin, cos) = (y * forward - x * side, x * forward + y * side);
+        (Angle::along(sin, cos, length), forward)
+    }))
 }
 
 /// Both `(first, second)` angles of two links in a plane, measured from z towards x, that put the
@@ -78,7 +78,8 @@ pub(super) fn two_links(
     }
     let bend = bend(reach, first, second, play);
     let (along, across) = (first + second * bend.cos, second * bend.sin);
-    let lean = |across: f64| Angle::towards(x * along - z * across, z * along + x * across);
+    let length = reach * (along * along + across * across).sqrt();
+    let lean = |across: f64| Angle::along(x * along - z * across, z * along + x * across, length);
     Some([(lean(across), bend), (lean(-across), bend.opposite())])
 }
 
@@ -92,10 +93,16 @@ pub(super) fn two_links(
 pub(super) fn bend(reach: f64, first: f64, second: f64, play: Play) -> Angle {
     let (sum, difference) = (first + second, (first - second).abs());
     let least = 2e-15 * sum;
-    let root = |gap: f64, rest: f64| if gap < least { 0.0 } else { (gap * rest).sqrt() };
-    let outer = root(sum - reach, sum + reach);
-    let inner = root(reach - difference, reach + difference);
-    let (mut outer, mut inner) = unit(outer, inner);
+    // The two squares add up to 4ab, so these are sine and cosine already.
+    let scale = 0.25 / (first * second);
+    let root = |gap: f64, rest: f64| (gap * rest * scale).max(0.0).sqrt();
+    let mut outer = root(sum - reach, sum + reach);
+    let mut inner = root(reach - difference, reach + difference);
+    if sum - reach < least {
+        (outer, inner) = (0.0, 1.0);
+    } else if reach - difference < least {
+        (outer, inner) = (1.0, 0.0);
+    }
     if play.spread > 0.0 {
         (outer, inner) = unit(outer.max(0.5 * play.spread), inner.max(0.5 * play.spread));
     }

@@ -7,6 +7,8 @@ use super::posture::MAX_DOF;
 
 /// How far past a limit rounding may put a solution; it is then set on the limit.
 const LIMIT_SLACK: f64 = 1e-10;
+/// A division is what this file would wait for.
+const TURNS_PER_RAD: f64 = 1.0 / TAU;
 
 /// All values of a joint within its limits that leave the arm where a given value puts it; one
 /// that rounding has put past a limit is set on it.
@@ -30,28 +32,24 @@ impl Turns {
     pub(super) fn within(axis: &ChainAxis, value: f64, near: Option<f64>) -> Option<Self> {
         let (lower, upper) = (axis.lower - LIMIT_SLACK, axis.upper + LIMIT_SLACK);
         let inside = value >= lower && value <= upper;
-        // The common cases first, without division.
+        // The common cases first.
         let found = if !axis.periodic || (inside && value - TAU < lower && value + TAU > upper) {
             inside.then_some(Self::only(value))
+        } else if lower.is_finite() && upper.is_finite() {
+            Self::turned(lower, upper, value)
         } else {
-            Self::turned(lower, upper, value, near)
+            Self::nearest(lower, upper, value, near.unwrap_or(0.0))
         };
         let found = found?;
         Some(Self { first: found.first.max(axis.lower).min(axis.upper), ..found })
     }
 
-    fn turned(lower: f64, upper: f64, value: f64, near: Option<f64>) -> Option<Self> {
-        if upper - lower < 3.0 * TAU && lower.abs() < 9.0 * TAU && value.abs() < 9.0 * TAU {
-            Self::counted(lower, upper, value)
-        } else if lower.is_finite() && upper.is_finite() {
-            let first = ((lower - value) / TAU).ceil();
-            let last = ((upper - value) / TAU).floor();
-            // More than a thousand turns each way is a limit that means nothing.
-            let more = (last - first).min(2000.0) as u32;
-            (last >= first).then_some(Self { first: value + first * TAU, more })
-        } else {
-            Self::nearest(lower, upper, value, near.unwrap_or(0.0))
-        }
+    fn turned(lower: f64, upper: f64, value: f64) -> Option<Self> {
+        let first = ((lower - value) * TURNS_PER_RAD).ceil();
+        let last = ((upper - value) * TURNS_PER_RAD).floor();
+        // More than a thousand turns each way is a limit that means nothing.
+        let more = (last - first).min(2000.0) as u32;
+        (last >= first).then_some(Self { first: value + first * TAU, more })
     }
 
     /// The one of endless copies that lies next to `near`.
@@ -64,22 +62,6 @@ impl Turns {
             only -= ((only - upper) / TAU).ceil() * TAU;
         }
         only.is_finite().then_some(Self::only(only))
-    }
-
-    /// The same for narrow limits, turn by turn.
-    fn counted(lower: f64, upper: f64, value: f64) -> Option<Self> {
-        let mut first = value;
-        while first < lower {
-            first += TAU;
-        }
-        while first - TAU >= lower {
-            first -= TAU;
-        }
-        let (mut last, mut more) = (first, 0);
-        while last + TAU <= upper {
-            (last, more) = (last + TAU, more + 1);
-        }
-        (first <= upper).then_some(Self { first, more })
     }
 }
 
