@@ -147,6 +147,7 @@ impl Fill<'_> {
             shortening_m: range(outcome.shortening_m),
             cured_depth_m: outcome.cured_depth_m.map(range),
             bond: self.bond(order),
+            reheated: self.reheated(order),
             bead_share: strands::bead_share(self.job, result),
             blobs_m: strands::blobs_m(result),
             ageing: strands::ageing(self.job, result),
@@ -178,6 +179,17 @@ impl Fill<'_> {
             to: self.id(bond.other),
             at_m: bond.at_m,
             by_law: bond.by_law,
+        })
+    }
+
+    fn reheated(&self, order: usize) -> Option<results::Reheated> {
+        let warmed = self.preflight.reheats[order]?;
+        Some(results::Reheated {
+            peak_k: range(warmed.peak_k),
+            above_glass_s: range(warmed.above_glass_s),
+            softened_m: range(warmed.softened_m),
+            by: self.id(warmed.by),
+            at_m: warmed.at_m,
         })
     }
 

@@ -64,6 +64,8 @@ pub struct Strand {
     pub cured_depth_m: Option<Range>,
     /// Weakest bond to an earlier strand; null: it touches none.
     pub bond: Option<Bond>,
+    /// Where later strands warm it most; null: none touches it, or it is no thermoplastic.
+    pub reheated: Option<Reheated>,
     /// Beads along it, as drawn: thinnest and widest over what was asked, away from the ends; null: too short.
     pub bead_share: Option<[f64; 2]>,
     /// Balls of what comes out at rest, diameters, m: before the start, at the end, after leaving.
@@ -108,6 +110,22 @@ pub struct Bond {
     pub at_m: f64,
     /// By the law of healing; else the material's bond fraction, measured on other prints.
     pub by_law: bool,
+}
+
+/// How a later strand's nozzle warms an earlier one as it crosses it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reheated {
+    /// Mean temperature of the section, K.
+    pub peak_k: Range,
+    /// Time it is above the glass transition, s.
+    pub above_glass_s: Range,
+    /// Length above it, m.
+    pub softened_m: Range,
+    /// The later strand.
+    pub by: String,
+    /// Where on the strand, m.
+    pub at_m: f64,
 }
 
 /// A section against its age, nominal.

@@ -39,6 +39,7 @@ pub(crate) fn strand(id: &str, sag_m: f64) -> Strand {
         shortening_m: range(1e-4, 5e-5, 2e-4),
         cured_depth_m: None,
         bond: None,
+        reheated: None,
         bead_share: Some([0.98, 1.01]),
         blobs_m: [Some(0.0), Some(0.0), Some(0.0)],
         ageing: Ageing {

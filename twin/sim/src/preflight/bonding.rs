@@ -1,6 +1,7 @@
 //! How well a strand bonds to the earlier ones it touches.
 
 use super::making::StrandResult;
+use super::reheating;
 use crate::cell::Job;
 use crate::deposit::{Contact, Deposit};
 use crate::finding::{Check, Code, Findings, Site, Words};
@@ -42,8 +43,8 @@ pub(super) fn bonds(
 ) -> Vec<Option<Bond>> {
     let mut bonds: Vec<Option<Bond>> = vec![None; results.len()];
     for contact in contacts {
-        let (order, earlier) = (contact.orders[0], contact.orders[1]);
-        let bond = bond(job, deposit, contact, &results[order], &results[earlier]);
+        let order = contact.orders[0];
+        let bond = bond(job, deposit, contact, results);
         let weakest = &mut bonds[order];
         if weakest.is_none_or(|known| bond.share.nominal < known.share.nominal) {
             *weakest = Some(bond);
@@ -56,14 +57,10 @@ fn bond(
     job: &Job,
     deposit: &Deposit,
     contact: &Contact,
-    result: &StrandResult,
-    earlier: &StrandResult,
+    results: &[StrandResult],
 ) -> Bond {
-    let touched_s =
-        deposit.strands[contact.orders[0]].born_s + result.course.time_at_s(contact.at_m[0]);
-    let laid_s =
-        deposit.strands[contact.orders[1]].born_s + earlier.course.time_at_s(contact.at_m[1]);
-    let age_s = (touched_s - laid_s).max(0.0);
+    let [result, earlier] = contact.orders.map(|order| &results[order]);
+    let age_s = reheating::age_s(deposit, contact, results);
     let degree = degree(job, result, earlier, age_s, contact.at_m[0]);
     let share =
         degree.unwrap_or(job.material.bond_fraction).scaled(touching_share(job, contact, result));

@@ -9,6 +9,7 @@ mod judging;
 mod lighting;
 mod making;
 mod program;
+mod reheating;
 mod rules;
 mod totals;
 mod tracking;
@@ -18,6 +19,7 @@ pub use bonding::Bond;
 pub use clear::Cleared;
 pub use making::StrandResult;
 pub use program::Program;
+pub use reheating::Reheated;
 pub use totals::{Assumption, Totals};
 pub use tracking::{SETTLED_M, Tracking};
 pub use view::scene;
@@ -81,6 +83,8 @@ pub struct Preflight {
     pub strands: Vec<StrandResult>,
     /// The weakest bond of each to earlier ones, in printing order.
     pub bonds: Vec<Option<Bond>>,
+    /// Where later strands warm each strand again, in printing order.
+    pub reheats: Vec<Option<Reheated>>,
     /// The frame by stages, landings and loads.
     pub growth: Growth,
     /// Smallest clearance measured.
@@ -141,6 +145,7 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let deposit = making::as_printed(&job, &motion, &strands);
     let contacts = deposit::contacts(&deposit);
     let bonds = bonding::bonds(&job, &deposit, &contacts, &strands);
+    let reheats = reheating::reheats(&job, &deposit, &contacts, &strands);
     bonding::judge(&job, &deposit, &strands, &bonds, &mut findings);
     rules::idle(&job, &motion.printings, &mut findings);
 
@@ -168,6 +173,7 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
         contacts,
         strands,
         bonds,
+        reheats,
         growth,
         nearest,
         program,
