@@ -8,8 +8,9 @@ use super::kamal::GAUSS_UNIT;
 use super::plastic_bending::{Bend, GelBeam, falling_root, integral, plastic_moment_n_m};
 use super::yield_stress::{HerschelBulkley, Structure, yield_at_age_pa};
 
-/// Quadrature panels of five points to the soft zone of a hinged nozzle.
-const PANELS: usize = 8;
+/// Quadrature panels of five points to the soft zone of a hinged nozzle: 2e-3 of the sag, a few hundredths of the little just
+/// past yield.
+const PANELS: usize = 5;
 const POINTS: usize = 5 * PANELS;
 /// `w L²/M_p` that a beam clamped at one end and hinged at the other carries: `2 (3 + 2√2)`.
 const PROPPED: f64 = 11.656_854_249_492_381;
@@ -150,22 +151,15 @@ impl GelStrand {
         long_m
     }
 
-    /// Whether all of it is a number.
+    /// Whether the numbers mean anything.
     fn told(&self) -> bool {
-        let fluid = self.gel.fluid;
-        [
-            fluid.yield_pa,
-            fluid.consistency_pa_sn,
-            fluid.index,
-            self.gel.start,
-            self.diameter_m,
-            self.weight_n_m3,
-            self.speed_m_s,
-            self.span_m,
-            self.until_s,
-        ]
-        .iter()
-        .all(|value| value.is_finite())
+        let HerschelBulkley { yield_pa, consistency_pa_sn, index } = self.gel.fluid;
+        let finite = [yield_pa, self.weight_n_m3, self.speed_m_s, self.span_m, self.until_s];
+        [consistency_pa_sn, index, self.diameter_m].iter().all(|value| *value > 0.0)
+            && (0.0..=1.0).contains(&self.gel.start)
+            && (self.gel.start >= 1.0 || self.gel.structure.recovery_s > 0.0)
+            && finite.iter().all(|value| value.is_finite())
+            && yield_pa >= 0.0
     }
 
     /// All of it at an age, s.
@@ -239,9 +233,15 @@ impl Hinged {
             let moment_n_m = (0.5 * line_n_m * at_m[k] - force_n) * at_m[k];
             step_m * GAUSS_UNIT[k % 5].1 * bend.rate(moment_n_m, plastic_n_m[k])
         };
-        let kept =
-            |force_n: f64| (0..POINTS).map(|k| weight(at_m[k]) * rate(k, force_n)).sum::<f64>();
-        let force_n = falling_root(0.0, 0.5 * line_n_m * length_m, kept);
+        let kept = |force_n: f64| {
+            let (mut forth, mut back) = (0.0, 0.0);
+            for (k, &x) in at_m.iter().enumerate() {
+                let turn = weight(x) * rate(k, force_n);
+                if turn > 0.0 { forth += turn } else { back -= turn }
+            }
+            bend.even(forth, back)
+        };
+        let force_n = falling_root(0.0, 0.5 * line_n_m * length_m, 1e-9, kept);
         Some(Self { at_m, turn: std::array::from_fn(|k| rate(k, force_n)) })
     }
 

@@ -92,17 +92,23 @@ impl GelBeam {
             return 0.0;
         }
         let bend = Bend::new(self);
-        // integral over the stretches that flow, for a moment at the middle
+        // integrals over the stretches that flow, about the middle and out to the end, for a moment at the middle
         let over = |middle_n_m: f64, weight: &dyn Fn(f64) -> f64| {
             let at = |moment: f64| (2.0 * moment.max(0.0) / line_n_m).sqrt().min(half_m);
-            let rate =
-                |x: f64| bend.rate(0.5 * line_n_m * x * x - middle_n_m, plastic_n_m) * weight(x);
-            integral(0.0, at(middle_n_m - plastic_n_m), rate)
-                + integral(at(middle_n_m + plastic_n_m), half_m, rate)
+            let moment = |x: f64| 0.5 * line_n_m * x * x - middle_n_m;
+            let rate = |x: f64| bend.rate(moment(x), plastic_n_m) * weight(x);
+            [
+                integral(0.0, at(middle_n_m - plastic_n_m), rate),
+                integral(at(middle_n_m + plastic_n_m), half_m, rate),
+            ]
         };
-        let turn = |middle_n_m: f64| over(middle_n_m, &|_| 1.0);
-        let middle_n_m = falling_root(plastic_n_m, whole_n_m - plastic_n_m, turn);
-        over(middle_n_m, weight)
+        let turn = |middle_n_m: f64| {
+            let [back, forth] = over(middle_n_m, &|_| 1.0);
+            bend.even(forth, -back)
+        };
+        let middle_n_m = falling_root(plastic_n_m, whole_n_m - plastic_n_m, 1e-10, turn);
+        let [middle, end] = over(middle_n_m, weight);
+        middle + end
     }
 
     /// Weight to a length, N/m, and plastic moment, N m.
@@ -130,6 +136,13 @@ impl Bend {
         }
     }
 
+    /// Two turns against each other, each to the power of the index: zero where they are the same and nearly straight in
+    /// the moment, which a root is then found of in a few steps.
+    pub(super) fn even(&self, forth: f64, back: f64) -> f64 {
+        let index = 1.0 / self.power;
+        forth.powf(index) - back.powf(index)
+    }
+
     pub(super) fn rate(&self, moment_n_m: f64, plastic_n_m: f64) -> f64 {
         let over_n_m = moment_n_m.abs() - plastic_n_m;
         if over_n_m <= 0.0 {
@@ -139,14 +152,20 @@ impl Bend {
     }
 }
 
-/// Root of a falling function between two ends: false position, the end that stays weighed less each time.
-pub(super) fn falling_root(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
+/// Root of a falling function between two ends: false position, the end that stays weighed less each time, until a
+/// step is small over the root; sixty at most.
+pub(super) fn falling_root(
+    mut low: f64,
+    mut high: f64,
+    relative: f64,
+    value: impl Fn(f64) -> f64,
+) -> f64 {
     let (mut above, mut below) = (value(low), value(high));
     let (mut root, mut kept) = (0.5 * (low + high), 0);
     for _ in 0..60 {
         let secant = (low * below - high * above) / (below - above);
         let next = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
-        let settled = (next - root).abs() <= 1e-13 * next.abs();
+        let settled = (next - root).abs() <= relative * next.abs();
         root = next;
         let at = value(root);
         if settled || at == 0.0 || at.is_nan() {

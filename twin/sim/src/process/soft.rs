@@ -37,7 +37,10 @@ pub struct NozzleSag {
 /// inputs nominal. Low: clamped, fast corner. High: the nozzle is a hinge, slow corner. A free far end
 /// takes the greater of this and its own drop once the nozzle has left; the drop has no tension to
 /// stretch against and is bounded by the span. Corners: [`Corner`] on cooling, viscosity, density; lamp,
-/// critical exposure, yield stress; set time. Resting strands do not sag.
+/// critical exposure, yield stress, flow of the gel, its recovery (slow alone); set time. Resting strands do not sag.
+///
+/// A gel costs under a microsecond where it stands; where it flows ten to thirty, where its span is also shorter than
+/// twice its soft zone, or it never sets, a tenth of a millisecond.
 pub fn nozzle_sag(input: &StrandInput, material: &Material, heats: &Heats) -> NozzleSag {
     if input.ends == Ends::Resting {
         return NozzleSag { offset_m: Interval::exact(0.0), linear: true };
@@ -48,7 +51,12 @@ pub fn nozzle_sag(input: &StrandInput, material: &Material, heats: &Heats) -> No
 }
 
 /// Offset at a corner, m, and whether linear.
-fn offset(input: &StrandInput, material: &Material, heats: &Heats, corner: Corner) -> (f64, bool) {
+pub(super) fn offset(
+    input: &StrandInput,
+    material: &Material,
+    heats: &Heats,
+    corner: Corner,
+) -> (f64, bool) {
     let beam = SoftBeam {
         diameter_m: drawn_diameter_m(input.flow_m3_s, input.speed_m_s),
         density_kg_m3: corner.harmful(material.fresh_density_kg_m3()),
