@@ -104,6 +104,8 @@ mod tests_feed;
 #[cfg(test)]
 mod tests_gel;
 #[cfg(test)]
+mod tests_gel_corners;
+#[cfg(test)]
 mod tests_heat;
 #[cfg(test)]
 mod tests_kinetics;

@@ -18,8 +18,8 @@ const RIGID: f64 = 1e-14;
 /// Quadrature panels to a piece: 1e-6 of the sag or better (tested).
 const PANELS: u32 = 10;
 
-/// Breakdown of a gel to a unit of shear. Ours, since nobody has one: a gel shears apart within a unit of strain. At the
-/// rates of a nozzle that leaves a few hundredths at most, and more breakdown hardly less.
+/// Breakdown of a gel to a unit of shear. Ours, since nobody has one: a gel shears apart within a unit of strain. With the
+/// reference's slowest recovery a nozzle then leaves a few thousandths, so that more breakdown hardly changes the sag.
 const BREAKDOWN: f64 = 1.0;
 
 /// Sag behind the nozzle, and whether linear theory holds at its nominal value.
@@ -39,7 +39,7 @@ pub struct NozzleSag {
 /// stretch against and is bounded by the span. Corners: [`Corner`] on cooling, viscosity, density; lamp,
 /// critical exposure, yield stress, flow of the gel, its recovery (slow alone); set time. Resting strands do not sag.
 ///
-/// A gel costs under a microsecond where it stands; where it flows ten to thirty, where its span is also shorter than
+/// A gel costs under a microsecond where it stands; where it flows about twenty, where its span is also shorter than
 /// twice its soft zone, or it never sets, a tenth of a millisecond.
 pub fn nozzle_sag(input: &StrandInput, material: &Material, heats: &Heats) -> NozzleSag {
     if input.ends == Ends::Resting {

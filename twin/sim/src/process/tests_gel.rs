@@ -1,17 +1,12 @@
-//! Gels behind the nozzle: the Newtonian closed forms, limits, and the corners of a strand.
+//! Gels behind the nozzle against the Newtonian closed forms, sums and limits.
 
 use proptest::prelude::*;
 
 use super::gel_sag::{FreshGel, GelStrand};
-use super::history::Corner;
 use super::plastic_bending::{curvature_rate, plastic_moment_n_m};
-use super::sag::{Fluidity, SoftBeam};
-use super::soft::{nozzle_sag, offset};
+use super::sag::{self, Fluidity, SoftBeam};
 use super::tests::{close, within};
-use super::tests_strand::{gel_strand, resin, ring};
 use super::yield_stress::{HerschelBulkley, Structure, carried};
-use super::*;
-use crate::interval::Interval;
 
 const WEIGHT: f64 = 1130.0 * 9.81;
 
@@ -22,29 +17,6 @@ fn bingham(yield_pa: f64) -> HerschelBulkley {
 /// A 3 mm strand at 5 mm/s, set after 2 s: a soft zone of 10 mm.
 fn strand(gel: FreshGel, span_m: f64) -> GelStrand {
     GelStrand { gel, diameter_m: 3e-3, weight_n_m3: WEIGHT, speed_m_s: 5e-3, span_m, until_s: 2.0 }
-}
-
-fn photopolymer(change: impl Fn(&mut Photopolymer)) -> Material {
-    let mut material = resin();
-    if let Setting::Photopolymer(resin) = &mut material.setting {
-        change(resin);
-    }
-    material
-}
-
-fn sag_m(input: &StrandInput, material: &Material) -> Interval {
-    nozzle_sag(input, material, &Heats::new(input, material)).offset_m
-}
-
-#[test]
-fn no_yield_stress_and_no_weight_is_no_sag() {
-    let watery = photopolymer(|resin| resin.yield_stress_pa = Interval::exact(0.0));
-    for ends in [Ends::BothHeld, Ends::StartHeld] {
-        for light in [None, Some(ring())] {
-            let input = StrandInput { gravity_across_m_s2: 0.0, light, ends, ..gel_strand() };
-            assert_eq!(sag_m(&input, &watery), Interval::exact(0.0));
-        }
-    }
 }
 
 #[test]
@@ -80,17 +52,6 @@ fn without_yield_stress_it_is_the_newtonian() {
         let ratio = (none[k] - little[k]) / (none[k] - less[k]);
         assert!((9.0..11.0).contains(&ratio), "{k}: {ratio}");
     }
-}
-
-#[test]
-fn outcomes_say_what_they_used() {
-    let known = known();
-    let recovers = "gel recovery after the nozzle (slow corner)";
-    assert!(simulate(&gel_strand(), &known).laws.contains(&recovers));
-    assert!(!simulate(&gel_strand(), &resin()).laws.contains(&recovers));
-    // nothing flows on a bed
-    let resting = StrandInput { ends: Ends::Resting, ..gel_strand() };
-    assert!(!simulate(&resting, &known).laws.iter().any(|law| law.contains("behind the nozzle")));
 }
 
 fn silica(index: f64) -> HerschelBulkley {
@@ -225,33 +186,6 @@ fn recovery_lies_between_sheared_and_rested() {
     }
 }
 
-fn known() -> Material {
-    let flow = GelFlow {
-        consistency_pa_sn: Interval::new(20.0, 5.0, 80.0),
-        index: Interval::new(0.5, 0.3, 0.7),
-        recovery_s: Interval::new(5.0, 1.0, 60.0),
-    };
-    photopolymer(|resin| resin.flow = Some(flow))
-}
-
-#[test]
-fn recovery_is_of_the_slow_corner() {
-    let with = |recovery_s: f64| {
-        let mut material = known();
-        if let Setting::Photopolymer(resin) = &mut material.setting {
-            resin.yield_stress_pa = Interval::exact(60.0);
-            resin.flow = resin
-                .flow
-                .map(|flow| GelFlow { recovery_s: Interval::new(0.01, 0.01, recovery_s), ..flow });
-        }
-        sag_m(&gel_strand(), &material)
-    };
-    let (quick, slow) = (with(0.01), with(60.0));
-    assert_eq!((quick.nominal, quick.low), (0.0, 0.0));
-    assert_eq!((slow.nominal, slow.low), (0.0, 0.0));
-    assert!(slow.high > 1e-3 && quick.high < 1e-6, "{quick:?} {slow:?}");
-}
-
 proptest! {
     #[test]
     fn more_yield_stress_never_more_sag(
@@ -271,35 +205,6 @@ proptest! {
             // recovering never sags less than rested
             prop_assert!(i > 3 || less[i] >= less[i + 4] * (1.0 - 1e-3), "{i}: {less:?}");
         }
-    }
-
-    #[test]
-    fn corners_are_in_order(
-        yield_pa in 0.0..40.0_f64, k in 1.0..40.0_f64, n in 0.3..0.9_f64, spread in 1.0..2.0_f64,
-        span_m in 1e-3..0.05_f64, speed_m_s in 1e-3..0.02_f64, start_held: bool, told: bool, dark: bool,
-    ) {
-        let range = |x: f64| Interval::new(x, x / spread, x * spread);
-        let material = photopolymer(|resin| {
-            resin.yield_stress_pa = range(yield_pa);
-            resin.base_viscosity_pa_s = range(k);
-            resin.flow = told.then_some(GelFlow {
-                consistency_pa_sn: range(k),
-                index: Interval::new(n, n / spread.sqrt(), n * spread.sqrt()),
-                recovery_s: range(5.0),
-            });
-        });
-        let input = StrandInput {
-            ends: if start_held { Ends::StartHeld } else { Ends::BothHeld },
-            light: (!dark).then_some(ring()),
-            flow_m3_s: bead::flow_m3_s(2e-3, speed_m_s),
-            speed_m_s,
-            span_m,
-            ..gel_strand()
-        };
-        let heats = Heats::new(&input, &material);
-        let [fast, nominal, slow] = [Corner::Fast, Corner::Nominal, Corner::Slow]
-            .map(|corner| offset(&input, &material, &heats, corner).0);
-        prop_assert!(fast <= nominal * (1.0 + 1e-6) && nominal <= slow * (1.0 + 2e-3), "{fast} {nominal} {slow}");
     }
 
     #[test]
