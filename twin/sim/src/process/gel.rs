@@ -19,14 +19,6 @@ pub fn clamped_span_m(yield_pa: f64, weight_n_m3: f64, diameter_m: f64) -> f64 {
     (16.0 * plastic_length2(yield_pa, weight_n_m3, diameter_m)).sqrt()
 }
 
-/// Share of the weight that makes a strand flow: `1 − (L_c / ℓ)²`, zero where `ℓ ≤ L_c`.
-///
-/// `L_c` is the length the yield stress carries; the plastic moment takes off that much load, as in a
-/// Bingham solid. Our own closure between the two laws, unmeasured.
-pub fn flowing_share(carried_m: f64, length_m: f64) -> f64 {
-    if length_m <= carried_m { 0.0 } else { 1.0 - (carried_m / length_m).powi(2) }
-}
-
 /// `M_p / w`, m².
 fn plastic_length2(yield_pa: f64, weight_n_m3: f64, diameter_m: f64) -> f64 {
     2.0 * yield_pa * diameter_m / (3.0_f64.sqrt() * std::f64::consts::PI * weight_n_m3)

@@ -11,7 +11,7 @@
 //! | heat | `heat`, `air_side`, `jet`, `radial` and `cooled`, `thermal`, `reheat`, `tait`, `viscosity` |
 //! | light | `lamp`, `shade`, `lights`, `dose` (with `sweep`, `steps`, `reach`, `memo`, `irradiance`), `through`, `bed_light`, `lit`; a ring by formula: `light`, `cure` |
 //! | resins | `kamal`, `kinetics`, `cured`, `oxygen`, `solid`, `clock`, `gel`, `yield_stress`, `tube`, `plastic_bending` |
-//! | sag | `sag`, `soft`, `rod` and `soft_rod`, `stretch`, `corotational`, `elastica`, `angle` |
+//! | sag | `sag`, `gel_sag`, `soft`, `rod` and `soft_rod`, `stretch`, `corotational`, `elastica`, `angle` |
 //! | joints, shrinkage | `contact`, `healing`, `shrinkage`, `age_samples` |
 
 pub mod age_samples;
@@ -34,6 +34,7 @@ pub mod elastica;
 pub mod fed;
 pub mod feed;
 pub mod gel;
+pub mod gel_sag;
 pub mod healing;
 pub mod heat;
 pub mod history;
@@ -100,6 +101,10 @@ mod tests_cured;
 mod tests_dose;
 #[cfg(test)]
 mod tests_feed;
+#[cfg(test)]
+mod tests_gel;
+#[cfg(test)]
+mod tests_gel_corners;
 #[cfg(test)]
 mod tests_heat;
 #[cfg(test)]

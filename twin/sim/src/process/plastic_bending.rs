@@ -2,8 +2,8 @@
 //!
 //! A thin strand that bends is stretched and squeezed along its length, `ε̇ = κ̇ y`. Von Mises makes of
 //! `τ = τ_y + K γ̇ⁿ` a stress `σ = √3 [τ_y + K (√3 ε̇)ⁿ]`, so as soon as it bends at all the whole section yields
-//! and `M = M_p + √3 K (√3 κ̇)ⁿ J_n`, closed for every `n`: no plug to look for. It takes the place of
-//! [`super::gel::flowing_share`], which was ours and unmeasured. Elastic give below `M_p` is left out.
+//! and `M = M_p + √3 K (√3 κ̇)ⁿ J_n`, closed for every `n`: no plug to look for. Elastic give below `M_p` is
+//! left out. [`super::gel_sag`] draws these beams out behind a nozzle.
 
 use std::f64::consts::PI;
 
@@ -63,7 +63,7 @@ impl GelBeam {
             return 0.0;
         }
         let bend = Bend::new(self);
-        integral(from_m, length_m, |x| bend.rate(0.5 * line_n_m * x * x) * x)
+        integral(from_m, length_m, |x| bend.rate(0.5 * line_n_m * x * x, plastic_n_m) * x)
     }
 
     /// Speed at which the middle sinks, clamped at both ends, m/s; small slopes.
@@ -71,6 +71,20 @@ impl GelBeam {
     /// Moment `w x²/2 − M_m` from the middle, `M_m` so that the ends stay level. Zero up to the
     /// span of case YIELD-CC, `w L⁴/(384·3 η I)` for a Newtonian. 0.1 ms at most.
     pub fn clamped_m_s(&self, span_m: f64) -> f64 {
+        self.clamped(span_m, &|x| x - 0.5 * span_m)
+    }
+
+    /// Sag of a strand drawn out at a speed, times that speed, m²/s: `∫ ξ² κ̇ dξ / 2` over a soft zone that is
+    /// clamped at both ends, by the nozzle and where it is set.
+    ///
+    /// What a section has gone through when it sets, `δ v` of [`super::sag::SoftBeam::clamped_sag_m`]: one fluid all along
+    /// makes the zone even about its middle. `w ℓ⁵/(720·3 η I)` for a Newtonian (case VISC-SS-CLAMPED).
+    pub fn clamped_zone_m2_s(&self, length_m: f64) -> f64 {
+        self.clamped(length_m, &|x| x * x)
+    }
+
+    /// `∫ κ̇ g(x) dx` over half a beam clamped at both ends, `x` from the middle.
+    fn clamped(&self, span_m: f64, weight: &dyn Fn(f64) -> f64) -> f64 {
         let (line_n_m, plastic_n_m) = self.loads();
         let half_m = 0.5 * span_m;
         let whole_n_m = 0.5 * line_n_m * half_m * half_m;
@@ -78,20 +92,27 @@ impl GelBeam {
             return 0.0;
         }
         let bend = Bend::new(self);
-        // integral over the stretches that flow, for a moment at the middle
+        // integrals over the stretches that flow, about the middle and out to the end, for a moment at the middle
         let over = |middle_n_m: f64, weight: &dyn Fn(f64) -> f64| {
             let at = |moment: f64| (2.0 * moment.max(0.0) / line_n_m).sqrt().min(half_m);
-            let rate = |x: f64| bend.rate(0.5 * line_n_m * x * x - middle_n_m) * weight(x);
-            integral(0.0, at(middle_n_m - plastic_n_m), rate)
-                + integral(at(middle_n_m + plastic_n_m), half_m, rate)
+            let moment = |x: f64| 0.5 * line_n_m * x * x - middle_n_m;
+            let rate = |x: f64| bend.rate(moment(x), plastic_n_m) * weight(x);
+            [
+                integral(0.0, at(middle_n_m - plastic_n_m), rate),
+                integral(at(middle_n_m + plastic_n_m), half_m, rate),
+            ]
         };
-        let turn = |middle_n_m: f64| over(middle_n_m, &|_| 1.0);
-        let middle_n_m = falling_root(plastic_n_m, whole_n_m - plastic_n_m, turn);
-        over(middle_n_m, &|x| x - half_m)
+        let turn = |middle_n_m: f64| {
+            let [back, forth] = over(middle_n_m, &|_| 1.0);
+            bend.even(forth, -back)
+        };
+        let middle_n_m = falling_root(plastic_n_m, whole_n_m - plastic_n_m, 1e-10, turn);
+        let [middle, end] = over(middle_n_m, weight);
+        middle + end
     }
 
     /// Weight to a length, N/m, and plastic moment, N m.
-    fn loads(&self) -> (f64, f64) {
+    pub(super) fn loads(&self) -> (f64, f64) {
         let area_m2 = 0.25 * PI * self.diameter_m * self.diameter_m;
         let plastic_n_m = plastic_moment_n_m(self.fluid.yield_pa, self.diameter_m);
         (self.weight_n_m3.abs() * area_m2, plastic_n_m)
@@ -99,17 +120,15 @@ impl GelBeam {
 }
 
 /// [`curvature_rate`] with what is the same along a strand worked out once.
-struct Bend {
-    plastic_n_m: f64,
+pub(super) struct Bend {
     scale: f64,
     power: f64,
 }
 
 impl Bend {
-    fn new(beam: &GelBeam) -> Self {
+    pub(super) fn new(beam: &GelBeam) -> Self {
         let GelBeam { fluid, diameter_m, .. } = beam;
         Self {
-            plastic_n_m: plastic_moment_n_m(fluid.yield_pa, *diameter_m),
             scale: 3.0_f64.sqrt()
                 * fluid.consistency_pa_sn
                 * section_moment(*diameter_m, fluid.index),
@@ -117,8 +136,15 @@ impl Bend {
         }
     }
 
-    fn rate(&self, moment_n_m: f64) -> f64 {
-        let over_n_m = moment_n_m.abs() - self.plastic_n_m;
+    /// Two turns against each other, each to the power of the index: zero where they are the same and nearly straight in
+    /// the moment, which a root is then found of in a few steps.
+    pub(super) fn even(&self, forth: f64, back: f64) -> f64 {
+        let index = 1.0 / self.power;
+        forth.powf(index) - back.powf(index)
+    }
+
+    pub(super) fn rate(&self, moment_n_m: f64, plastic_n_m: f64) -> f64 {
+        let over_n_m = moment_n_m.abs() - plastic_n_m;
         if over_n_m <= 0.0 {
             return 0.0;
         }
@@ -126,14 +152,20 @@ impl Bend {
     }
 }
 
-/// Root of a falling function between two ends: false position, the end that stays weighed less each time.
-fn falling_root(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 {
+/// Root of a falling function between two ends: false position, the end that stays weighed less each time, until a
+/// step is small over the root; sixty at most.
+pub(super) fn falling_root(
+    mut low: f64,
+    mut high: f64,
+    relative: f64,
+    value: impl Fn(f64) -> f64,
+) -> f64 {
     let (mut above, mut below) = (value(low), value(high));
     let (mut root, mut kept) = (0.5 * (low + high), 0);
     for _ in 0..60 {
         let secant = (low * below - high * above) / (below - above);
         let next = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
-        let settled = (next - root).abs() <= 1e-13 * next.abs();
+        let settled = (next - root).abs() <= relative * next.abs();
         root = next;
         let at = value(root);
         if settled || at == 0.0 || at.is_nan() {
@@ -157,7 +189,7 @@ fn falling_root(mut low: f64, mut high: f64, value: impl Fn(f64) -> f64) -> f64 
 }
 
 /// Composite Gauss–Legendre of five points a panel; zero where it does not ascend.
-fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
     if !(to > from) {
         return 0.0;
     }

@@ -46,6 +46,9 @@ impl Sagged {
 
 /// Sag A at a corner of the stretch `[from, to]` of arc length, m, that nothing holds in between.
 ///
+/// A gel is a rested Bingham fluid of its resin's viscosity, at all corners: the rod knows no index and no recovery, so
+/// where the gel's flow is known [`super::soft`] has the worse slow corner.
+///
 /// Small slopes; `None` where the laws know no fluid (nothing is there that could flow), nothing holds the stretch, or
 /// numbers mean nothing. The start is taken as grown onto what holds it, the nozzle clamps the slope (a hinge at
 /// the slow corner), and after the dwell the end is held or let go. 60 elements: cost about a

@@ -458,24 +458,34 @@ fn laws(input: &StrandInput, material: &Material) -> Vec<&'static str> {
             "Cross-WLF zero-shear viscosity",
             "shrinkage by expansion below the glass transition",
         ]),
-        Setting::Photopolymer(_) => laws.extend([
-            "ring irradiance",
-            "Jacobs cure depth",
-            "yield stress collapse",
-            "shrinkage past the gel point",
-        ]),
+        Setting::Photopolymer(resin) => {
+            laws.extend(["ring irradiance", "Jacobs cure depth", "shrinkage past the gel point"]);
+            if input.ends != Ends::Resting {
+                laws.extend(gel_laws(resin));
+            }
+        }
         Setting::TwoPart(_) => laws.extend(["set time", "shrinkage past the gel point"]),
     }
+    let gel = matches!(material.setting, Setting::Photopolymer(_));
+    if input.ends != Ends::Resting && !gel {
+        laws.push("viscous beam behind the nozzle");
+    }
     match input.ends {
-        Ends::BothHeld => {
-            laws.extend([
-                "viscous beam behind the nozzle",
-                "slack parabola",
-                "elastic self-weight",
-            ]);
-        }
-        Ends::StartHeld => laws.extend(["viscous beam behind the nozzle", "elastic cantilever"]),
+        Ends::BothHeld => laws.extend(["slack parabola", "elastic self-weight"]),
+        Ends::StartHeld => laws.push("elastic cantilever"),
         Ends::Resting => {}
     }
     laws
+}
+
+/// Laws of a gel behind the nozzle.
+fn gel_laws(resin: &Photopolymer) -> &'static [&'static str] {
+    if resin.flow.is_none() {
+        return &["Bingham beam behind the nozzle", "Bingham shear behind the nozzle"];
+    }
+    &[
+        "Herschel-Bulkley beam behind the nozzle",
+        "Herschel-Bulkley shear behind the nozzle",
+        "gel recovery after the nozzle (slow corner)",
+    ]
 }

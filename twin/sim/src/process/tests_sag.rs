@@ -183,6 +183,4 @@ fn gel_limits() {
     close(gel::hanging_length_m(60.0, weight), 0.009_374_852_142_398_728, 1e-9); // YIELD-HANG
     close(gel::cantilever_length_m(60.0, weight, 0.003), 0.003_454_914_249_839_961, 1e-9); // YIELD-CANT
     close(gel::clamped_span_m(60.0, weight, 0.003), 0.009_771_973_177_919_481, 1e-9); // YIELD-CC
-    assert!(gel::flowing_share(0.01, 0.005) == 0.0);
-    within(gel::flowing_share(0.005, 0.01), 0.75, 1e-12);
 }
