@@ -20,6 +20,8 @@ mod planted_process;
 #[cfg(test)]
 mod reference;
 #[cfg(test)]
+mod reheated;
+#[cfg(test)]
 mod scenarios;
 #[cfg(test)]
 mod tidy;

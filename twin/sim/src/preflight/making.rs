@@ -286,7 +286,12 @@ impl Rod<'_> {
             if held { held_sag_m(sagged.greatest_m, diameter_m) } else { sagged.greatest_m }
         };
         let linear = sag_m(&nominal) <= LINEAR_LIMIT * diameter_m;
-        outcome.sag_nozzle_m = Interval::new(sag_m(&nominal), sag_m(&low), sag_m(&high));
+        // The rod knows no gel that is still getting its yield stress back; the closed form does.
+        let high_m = sag_m(&high).max(match self.job.material.setting {
+            Setting::Photopolymer(_) => outcome.sag_nozzle_m.high,
+            Setting::Thermoplastic(_) | Setting::TwoPart(_) => 0.0,
+        });
+        outcome.sag_nozzle_m = Interval::new(sag_m(&nominal), sag_m(&low), high_m);
         outcome.sag_linear = linear;
         outcome.laws.push("ageing rod");
         Some(nominal)
