@@ -27,12 +27,15 @@ pub(crate) struct Check {
     /// Job to check
     #[arg(value_name = "JOB.slam")]
     job: PathBuf,
-    /// Folder for report.json and picture.png
+    /// Folder for report.json, strands.html and picture.png
     #[arg(long, value_name = "DIR", default_value = "twin.out")]
     out: PathBuf,
     /// Draw no picture
     #[arg(long)]
     no_render: bool,
+    /// Write no page of plots
+    #[arg(long)]
+    no_plots: bool,
     /// What to print
     #[arg(long, value_enum, default_value_t = Format::Human)]
     format: Format,
@@ -96,6 +99,9 @@ impl Check {
         let mut report =
             Report::new(&checked, &source, Provenance::new(inputs, None), clock.timing());
         files::write_whole(&report_path, report::to_json(&report).as_bytes())?;
+        if !self.no_plots {
+            files::write_whole(&self.page(), report::strands_page(&report).as_bytes())?;
+        }
 
         let picture = (!self.no_render).then(|| {
             clock.step("drawing");
@@ -132,6 +138,9 @@ impl Check {
                 let text = report::human(report, color, screen.width());
                 writeln!(screen.out, "{}\n", text.trim_end())?;
                 writeln!(screen.out, "report   {}", self.out.join("report.json").display())?;
+                if !self.no_plots {
+                    writeln!(screen.out, "plots    {}", self.page().display())?;
+                }
                 if let Some(Ok((path, drawn_by))) = picture {
                     writeln!(screen.out, "picture  {} (drawn by {drawn_by})", path.display())?;
                 }
@@ -159,21 +168,27 @@ impl Check {
         pool.map(Some).map_err(|error| Refusal::whole("--jobs", error.to_string()))
     }
 
-    /// The folder of the answer, without the picture of an earlier one.
+    /// Where the page of plots goes.
+    fn page(&self) -> PathBuf {
+        self.out.join("strands.html")
+    }
+
+    /// The folder of the answer, without picture and page of an earlier one.
     fn make_folder(&self) -> Result<(), Refusal> {
         let name = || self.out.display().to_string();
         std::fs::create_dir_all(&self.out).map_err(|error| {
             Refusal::whole(name(), format!("the folder cannot be made: {error}"))
                 .hint("name another with --out")
         })?;
-        let old = self.out.join("picture.png");
-        match std::fs::remove_file(&old) {
-            Err(error) if old.is_file() => {
-                let message = format!("the picture of an earlier check cannot be removed: {error}");
-                Err(Refusal::whole(old.display().to_string(), message))
+        for (old, what) in [(self.out.join("picture.png"), "picture"), (self.page(), "page")] {
+            if let Err(error) = std::fs::remove_file(&old)
+                && old.is_file()
+            {
+                let message = format!("the {what} of an earlier check cannot be removed: {error}");
+                return Err(Refusal::whole(old.display().to_string(), message));
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 
     /// Draws the picture: its path, and who drew it.

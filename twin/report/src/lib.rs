@@ -1,4 +1,4 @@
-//! What the twin found, as JSON for programs and as text for a terminal.
+//! What the twin found, as JSON for programs, as text for a terminal and as a page of plots.
 //!
 //! [`Report::new`] takes everything it says from a [`sim::preflight::Preflight`]; hashes, times and
 //! the name of who drew the pictures come from the caller. Nothing here computes a result.
@@ -8,6 +8,7 @@
 mod fill;
 mod human;
 mod parts;
+mod plots;
 mod program;
 mod quantity;
 mod results;
@@ -25,6 +26,7 @@ pub use parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
     Timing, Totals, Verdict,
 };
+pub use plots::strands_page;
 pub use program::{Budget, Cycle, Hose, Payload, Share, TcpSpeed, Tracking};
 pub use results::{
     Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion, WorstAt,

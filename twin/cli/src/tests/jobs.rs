@@ -98,13 +98,17 @@ fn check_writes_its_report_and_says_where() {
     assert!([FEASIBLE, FOUND].contains(&done.code), "{}", done.err);
     let path = out.join("report.json");
     assert!(done.out.contains(&path.display().to_string()), "{}", done.out);
+    let page = out.join("strands.html");
+    assert!(done.out.contains(&page.display().to_string()), "{}", done.out);
+    assert!(std::fs::read_to_string(&page).expect("a page").contains("Content-Security-Policy"));
     let text = std::fs::read_to_string(&path).expect("a report");
     let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let errors = report["findings"].as_array().expect("findings").iter();
     let n_errors = errors.filter(|finding| finding["severity"] == "error").count();
     assert_eq!(done.code == FOUND, n_errors > 0);
     assert_eq!(report["provenance"]["inputs"][0]["what"], "job");
-    let done = twin(args(&["--format", "json", "--fail-on", "warning"]));
+    let done = twin(args(&["--no-plots", "--format", "json", "--fail-on", "warning"]));
+    assert!(!page.exists(), "the page of an earlier check is gone");
     let printed: serde_json::Value = serde_json::from_str(&done.out).expect("JSON");
     assert_eq!(printed["findings"], report["findings"]);
     assert_eq!(
