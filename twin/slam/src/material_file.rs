@@ -115,8 +115,13 @@ pub enum SettingFile {
     },
     /// By the clock, from the mixer on.
     TwoPart {
-        /// Time from nozzle to set, s.
+        /// Time to set, s: from the nozzle on, or, with `activation_j_mol` and `reference_k`, from the mixer on at
+        /// that temperature.
         set_time_s: Number,
+        /// Activation energy of its clock, J/mol; with `reference_k` or not at all.
+        activation_j_mol: Option<Number>,
+        /// Temperature to which the set time refers, K.
+        reference_k: Option<f64>,
         /// Viscosity as it leaves the nozzle, Pa s.
         viscosity_pa_s: Number,
         /// Linear shrinkage after the gel point.
@@ -335,6 +340,7 @@ fn coefficients(law: Place<'_>, checks: &mut Checks) {
         checks.number(weld.get("factor_low"), Rule::AboveUpTo(0.0, 1.0));
         checks.number(weld.get("factor_high"), Rule::FromTo(1.0, 1e6));
     }
+    clock(law, checks);
     if let Some(kinetics) = law.get("kinetics") {
         for key in ["m", "n", "k2_over_k1"] {
             checks.number(kinetics.get(key), Rule::FromTo(0.0, 100.0));
@@ -352,6 +358,19 @@ fn coefficients(law: Place<'_>, checks: &mut Checks) {
             checks.refuse(Diagnostic::error(place.span(), says).hint("`gel` is below `max`"));
         }
     }
+}
+
+/// The clock of a two-part resin: both of its numbers or none.
+fn clock(law: Place<'_>, checks: &mut Checks) {
+    checks.number(law.get("reference_k"), Rule::Positive);
+    let one = match (law.get("activation_j_mol"), law.get("reference_k")) {
+        (Some(activation), None) => activation,
+        (None, Some(reference)) => reference,
+        _ => return,
+    };
+    let says = "`activation_j_mol` and `reference_k` go together";
+    let hint = "without both, the set time is taken as seen behind the nozzle";
+    checks.refuse(Diagnostic::error(one.span(), says).hint(hint));
 }
 
 fn cross_wlf(fit: Place<'_>, law: Place<'_>, checks: &mut Checks) {

@@ -111,14 +111,21 @@ fn setting(file: &SettingFile) -> Setting {
             flow: gel_flow(consistency_pa_sn, flow_index, recovery_s),
             surface_tension_n_m: surface_tension_n_m.as_ref().map(interval),
         }),
-        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage, pot_life_s } => {
-            Setting::TwoPart(TwoPart {
-                set_time_s: interval(set_time_s),
-                viscosity_pa_s: interval(viscosity_pa_s),
-                linear_shrinkage: interval(linear_shrinkage),
-                pot_life_s: pot_life_s.as_ref().map(interval),
-            })
-        }
+        SettingFile::TwoPart {
+            set_time_s,
+            activation_j_mol,
+            reference_k,
+            viscosity_pa_s,
+            linear_shrinkage,
+            pot_life_s,
+        } => Setting::TwoPart(TwoPart {
+            set_time_s: interval(set_time_s),
+            activation_j_mol: activation_j_mol.as_ref().map(interval),
+            reference_k: *reference_k,
+            viscosity_pa_s: interval(viscosity_pa_s),
+            linear_shrinkage: interval(linear_shrinkage),
+            pot_life_s: pot_life_s.as_ref().map(interval),
+        }),
     }
 }
 

@@ -191,6 +191,7 @@ fn make_one(
         swell: job.cell.extruder.swell,
         gravity_across_m_s2: across_m_s2,
         ends,
+        mixer_m3: job.cell.extruder.mixer_m3.unwrap_or(0.0),
         dwell_s: strand.end.dwell_s,
         air: Air {
             temperature_k: job.air.temperature_k,

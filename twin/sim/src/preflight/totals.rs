@@ -217,6 +217,11 @@ fn process_assumptions(job: &Job, say: &mut impl FnMut(&'static str, String)) {
             }
         }
         Setting::TwoPart(mix) => {
+            if mix.activation_j_mol.is_none() || mix.reference_k.is_none() {
+                law(
+                    "how this mix's clock goes with temperature is not known: its set time is that behind the nozzle, in any air and mixer.",
+                );
+            }
             if mix.pot_life_s.is_none() {
                 law("the pot life of this mix is not known: idle time is not judged.");
             }

@@ -168,8 +168,13 @@ pub struct GelFlow {
 /// What sets by the clock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoPart {
-    /// Time from nozzle to set, s.
+    /// Time to set, s: from the nozzle on, or, where activation and reference are given, from the mixer on at the
+    /// reference temperature.
     pub set_time_s: Interval,
+    /// Activation energy of its clock, J/mol; `None`: nobody knows.
+    pub activation_j_mol: Option<Interval>,
+    /// Temperature to which the set time refers, K.
+    pub reference_k: Option<f64>,
     /// Viscosity as it leaves the nozzle, Pa s.
     pub viscosity_pa_s: Interval,
     /// Linear shrinkage after the gel point.
