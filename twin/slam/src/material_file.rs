@@ -104,6 +104,8 @@ pub enum SettingFile {
         exposure_activation_j_mol: Option<Number>,
         /// Skin that air keeps tacky, m.
         tacky_skin_m: Option<Number>,
+        /// Oxygen in it, for second passes of light.
+        oxygen: Option<OxygenFile>,
         /// Consistency `K` of the flowing gel, Pa sⁿ.
         consistency_pa_sn: Option<Number>,
         /// Exponent `n` of the flowing gel.
@@ -205,6 +207,25 @@ pub struct KineticsFile {
     pub gel: f64,
     /// Greatest degree of cure at room temperature.
     pub max: f64,
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// Oxygen in a resin that stands in air: what it costs to light a surface again that was dark for a while. Needs
+/// `tacky_skin_m` as well.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OxygenFile {
+    /// Dissolved oxygen, mol/m³.
+    pub dissolved_mol_m3: f64,
+    /// Its diffusivity, m²/s.
+    pub diffusivity_m2_s: f64,
+    /// Radicals to a photon absorbed.
+    pub quantum_yield: f64,
+    /// Wavelength of the light, m.
+    pub wavelength_m: f64,
     /// How they are known.
     pub status: Status,
     /// Where they come from.
@@ -341,6 +362,12 @@ fn coefficients(law: Place<'_>, checks: &mut Checks) {
         checks.number(weld.get("factor_high"), Rule::FromTo(1.0, 1e6));
     }
     clock(law, checks);
+    if let Some(oxygen) = law.get("oxygen") {
+        for key in ["dissolved_mol_m3", "diffusivity_m2_s", "wavelength_m"] {
+            checks.number(oxygen.get(key), Rule::Positive);
+        }
+        checks.number(oxygen.get("quantum_yield"), Rule::AboveUpTo(0.0, 2.0));
+    }
     if let Some(kinetics) = law.get("kinetics") {
         for key in ["m", "n", "k2_over_k1"] {
             checks.number(kinetics.get(key), Rule::FromTo(0.0, 100.0));

@@ -60,6 +60,7 @@ pub(super) fn resin() -> Known {
         reaction_heat_j_kg: None,
         exposure_activation_j_mol: None,
         tacky_skin_m: None,
+        oxygen: None,
         flow: None,
         surface_tension_n_m: None,
         gel_density_kg_m3: exact(1130.0),

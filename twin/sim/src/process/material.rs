@@ -129,6 +129,8 @@ pub struct Photopolymer {
     pub exposure_activation_j_mol: Option<Interval>,
     /// Skin that air keeps tacky, m.
     pub tacky_skin_m: Option<Interval>,
+    /// Its oxygen, which eats light after a time in the dark; `None`: nobody knows.
+    pub oxygen: Option<OxygenLaw>,
     /// How the gel flows past its yield stress; `None`: nobody knows.
     pub flow: Option<GelFlow>,
     /// Surface tension, N/m.
@@ -152,6 +154,19 @@ pub struct KineticsLaw {
     pub gel: f64,
     /// Greatest degree of cure at room temperature.
     pub max: f64,
+}
+
+/// Oxygen in a resin that stands in air.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OxygenLaw {
+    /// Dissolved oxygen, mol/m³.
+    pub dissolved_mol_m3: f64,
+    /// Its diffusivity, m²/s.
+    pub diffusivity_m2_s: f64,
+    /// Radicals to a photon absorbed.
+    pub quantum_yield: f64,
+    /// Wavelength of the light, m.
+    pub wavelength_m: f64,
 }
 
 /// A gel that flows past its yield stress: `τ = τ_y + K γ̇ⁿ`.

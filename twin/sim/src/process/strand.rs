@@ -326,9 +326,16 @@ fn shell(input: &StrandInput, material: &Material, radius_m: f64) -> Shell {
         return Shell { area: whole, stiffness: whole, core_m: None, depth_m: None };
     };
     let depth = Corner::interval(|corner| depth_m(input, resin, corner));
+    let under_skin = |share: fn(f64, f64) -> f64| {
+        Corner::interval(|corner| {
+            let skin_m = resin.tacky_skin_m.map_or(0.0, |skin_m| corner.harmful(skin_m));
+            let left = share(corner.helpful(depth), radius_m) - share(skin_m, radius_m);
+            if left < 0.0 { 0.0 } else { left }
+        })
+    };
     Shell {
-        area: depth.map(|d| shell_area_fraction(d, radius_m)),
-        stiffness: depth.map(|d| shell_stiffness_fraction(d, radius_m)),
+        area: under_skin(shell_area_fraction),
+        stiffness: under_skin(shell_stiffness_fraction),
         core_m: Some(depth.map(|d| uncured_core_m(d, radius_m))),
         depth_m: Some(depth),
     }
@@ -460,12 +467,17 @@ fn laws(input: &StrandInput, material: &Material) -> Vec<&'static str> {
             "Cross-WLF zero-shear viscosity",
             "shrinkage by expansion below the glass transition",
         ]),
-        Setting::Photopolymer(_) => laws.extend([
-            "ring irradiance",
-            "Jacobs cure depth",
-            "yield stress collapse",
-            "shrinkage past the gel point",
-        ]),
+        Setting::Photopolymer(resin) => {
+            laws.extend([
+                "ring irradiance",
+                "Jacobs cure depth",
+                "yield stress collapse",
+                "shrinkage past the gel point",
+            ]);
+            if resin.tacky_skin_m.is_some() {
+                laws.push("tacky skin carries nothing");
+            }
+        }
         Setting::TwoPart(mix) => {
             laws.push("set time");
             if mix.activation_j_mol.is_some() && mix.reference_k.is_some() {

@@ -104,6 +104,7 @@ fn lit(course: &Course, second_pass_m_s: Option<f64>, post_cure_j_m2: Option<f64
         post_cure_j_m2,
         resting: false,
         temperature_k: 298.15,
+        warmth: None,
     };
     shine(course, &resin, &exposure)
 }

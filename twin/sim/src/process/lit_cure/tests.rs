@@ -1,0 +1,130 @@
+//! Cure of a place with heat and oxygen, against the same without.
+
+use super::*;
+use crate::interval::Interval;
+use crate::process::material::OxygenLaw;
+use crate::process::tests::{close, within};
+use crate::process::tests_strand::resin as material;
+use crate::process::{Material, Setting};
+
+fn range(nominal: f64, low: f64, high: f64) -> Interval {
+    Interval::new(nominal, low, high)
+}
+
+const LAW: KineticsLaw = KineticsLaw {
+    m: 0.7,
+    n: 1.5,
+    b: 0.6,
+    k2_over_k1: 0.0,
+    measured_at_w_m2: None,
+    gel: 0.15,
+    max: 0.8,
+};
+
+/// Numbers of materials/sla-resin-silica.toml.
+fn library() -> (Material, Photopolymer) {
+    let base = material();
+    let Setting::Photopolymer(resin) = base.setting.clone() else { panic!("a resin") };
+    let resin = Photopolymer {
+        kinetics: Some(LAW),
+        reaction_heat_j_kg: Some(range(330e3, 200e3, 480e3)),
+        exposure_activation_j_mol: Some(range(30e3, 15e3, 50e3)),
+        tacky_skin_m: Some(range(30e-6, 10e-6, 50e-6)),
+        penetration_m: range(3e-4, 5e-5, 5.7e-4),
+        critical_exposure_j_m2: range(100.0, 20.0, 240.0),
+        ..resin
+    };
+    let base = Material {
+        cp_j_kgk: range(1800.0, 1500.0, 2000.0),
+        k_w_mk: range(0.19, 0.15, 0.25),
+        emissivity: range(0.93, 0.88, 0.97),
+        setting: Setting::Photopolymer(resin.clone()),
+        ..base
+    };
+    (base, resin)
+}
+
+const STILL: Air = Air { temperature_k: 295.15, room_m_s: 0.0, jet: None, blown: None };
+const WHOLE: Pass = Pass { from_s: 0.25, lit_s: 4.5, irradiance_w_m2: 370.0 };
+
+fn place<'a>(material: &'a Material, air: &'a Air) -> Place<'a> {
+    Place {
+        radius_m: 1.5e-3,
+        temperature_k: air.temperature_k,
+        whole: WHOLE,
+        twice: None,
+        warmth: Some(Warmth { material, air, speed_m_s: 0.002 }),
+    }
+}
+
+#[test]
+fn heat_makes_it_gel_sooner_and_nothing_is_guessed_without() {
+    let (material, resin) = library();
+    for radius_m in [0.75e-3, 1.5e-3] {
+        let place = Place { radius_m, ..place(&material, &STILL) };
+        let cold = Place { warmth: None, ..place };
+        for corner in [Corner::Nominal, Corner::Fast, Corner::Slow] {
+            let (warm, cold) =
+                (curing(LAW, &resin, &place, corner), curing(LAW, &resin, &cold, corner));
+            println!(
+                "R {radius_m} {corner:?}: warmest {:?} sooner {} gel {} / {} cure {} / {}",
+                warm.warmest_k,
+                warm.sooner,
+                warm.cure.gel_age_s,
+                cold.cure.gel_age_s,
+                warm.cure.at(10.0),
+                cold.cure.at(10.0)
+            );
+            assert!(warm.warmest_k.is_some_and(|kelvin| kelvin > 305.0 && kelvin < 600.0));
+            assert!(warm.sooner < 1.0 && warm.sooner > 0.5);
+            assert!(
+                warm.cure.gel_age_s < cold.cure.gel_age_s
+                    && warm.cure.at(10.0) > cold.cure.at(10.0)
+            );
+            assert_eq!((cold.warmest_k, cold.sooner), (None, 1.0));
+            close(warm.sooner, (warm.cure.gel_age_s - 0.25) / (cold.cure.gel_age_s - 0.25), 1e-6);
+        }
+        let nothing = Photopolymer { reaction_heat_j_kg: None, ..resin.clone() };
+        let unknown = curing(LAW, &nothing, &place, Corner::Nominal);
+        assert_eq!(unknown, curing(LAW, &resin, &cold, Corner::Nominal));
+    }
+    // a jet keeps it cooler
+    let jet = Some(crate::process::Jet { speed_m_s: Interval::exact(20.0), reach_m: 0.03 });
+    let blown = Air { jet, ..STILL };
+    let kelvin = |air| curing(LAW, &resin, &place(&material, air), Corner::Nominal).warmest_k;
+    assert!(kelvin(&blown) < kelvin(&STILL));
+}
+
+#[test]
+fn oxygen_that_came_back_eats_the_first_of_the_second_light() {
+    let (material, resin) = library();
+    let first = Pass { lit_s: 0.4, ..WHOLE };
+    let second = Pass { from_s: 60.0, lit_s: 0.4, ..WHOLE };
+    let twice = Some([first, second]);
+    let place = Place {
+        whole: Pass { lit_s: 0.8, ..WHOLE },
+        twice,
+        warmth: None,
+        ..place(&material, &STILL)
+    };
+    let law = OxygenLaw {
+        dissolved_mol_m3: 1.5,
+        diffusivity_m2_s: 1.08e-10,
+        quantum_yield: 0.6,
+        wavelength_m: 405e-9,
+    };
+    let airy =
+        Photopolymer { oxygen: Some(law), penetration_m: Interval::exact(53e-6), ..resin.clone() };
+    let of = |resin: &Photopolymer| curing(LAW, resin, &place, Corner::Nominal).cure;
+    let (without, with) = (of(&resin), of(&airy));
+    // 39 J/m² at 370 W/m² are 0.106 s of the second 0.4 s; the first owes nothing.
+    let lit_s = 0.8 - 39.1 / 370.0;
+    let shorter = Place { whole: Pass { lit_s, ..WHOLE }, twice: None, ..place };
+    let want = curing(LAW, &resin, &shorter, Corner::Nominal).cure.at(100.0);
+    within(with.at(100.0), want, 2e-4);
+    assert!(with.at(100.0) < without.at(100.0));
+    close(with.gel_age_s, without.gel_age_s, 1e-9);
+    // a skin of unknown thickness owes nothing that could be told
+    let skinless = Photopolymer { tacky_skin_m: None, ..airy };
+    assert_eq!(of(&skinless), without);
+}
