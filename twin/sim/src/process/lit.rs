@@ -2,16 +2,16 @@
 
 use super::course::Course;
 use super::cured::Cured;
-use super::dose::{AZIMUTHS, Run, Segment, SegmentDose, Strand, add_run, segments};
+use super::dose::{AZIMUTHS, Run, Segment, SegmentDose, Strand, add_run};
 use super::history::Corner;
 use super::lights::{Lights, Station};
 use super::lit_cure::{Curing, Pass, Place, Warmth, curing};
 use super::material::Photopolymer;
 use super::through::{Inside, Section};
 use crate::interval::Interval;
+use stations::{middles, own_segments, second_pass, stations};
 
-/// Most segments light is summed on; longer strands are cut more coarsely.
-const MOST_SEGMENTS: usize = 240;
+mod stations;
 
 /// Light and what it leaves, segment by segment; intervals at corners of lamps, critical exposure and
 /// penetration.
@@ -249,59 +249,6 @@ fn warm(
         }
     }
     Some(curing)
-}
-
-/// The nozzle's way as the light laws want it, at most [`MOST_SEGMENTS`] steps along the strand, and what it travels
-/// past the end.
-fn stations(course: &Course, length_m: f64) -> Vec<Station> {
-    let every = course.stations.len().div_ceil(MOST_SEGMENTS).max(1);
-    let last = course.stations.len() - 1;
-    course
-        .stations
-        .iter()
-        .enumerate()
-        .filter(|(k, station)| {
-            k % every == 0 || *k == last || (station.at_m - length_m).abs() < 1e-9
-        })
-        .map(|(_, station)| Station {
-            time_s: station.time_s,
-            point: station.point,
-            part_from_tool: station.part_from_tool,
-            part_from_room: station.part_from_room,
-        })
-        .collect()
-}
-
-/// Segments of the strand itself, without what the nozzle travels past its end.
-fn own_segments(stations: &[Station], length_m: f64, course: &Course) -> Vec<super::dose::Segment> {
-    let end_s = course.time_at_s(length_m) + 1e-9;
-    let mut own = segments(stations);
-    own.retain(|segment| segment.born_s < end_s);
-    own
-}
-
-fn middles(stations: &[Station], length_m: f64, n: usize) -> Vec<f64> {
-    let mut at_m = 0.0;
-    let mut middles = Vec::with_capacity(n);
-    for pair in stations.windows(2).take(n) {
-        let step_m = (pair[1].point - pair[0].point).norm();
-        middles.push((at_m + 0.5 * step_m).min(length_m));
-        at_m += step_m;
-    }
-    middles
-}
-
-/// The same way once more, at a steady speed, after the first pass.
-fn second_pass(stations: &[Station], course: &Course, speed_m_s: f64) -> Vec<Station> {
-    let mut time_s = stations.last().map_or(0.0, |last| last.time_s) + course.dwell_s;
-    let mut again = Vec::with_capacity(stations.len());
-    for (k, station) in stations.iter().enumerate() {
-        if k > 0 {
-            time_s += (station.point - stations[k - 1].point).norm() / speed_m_s;
-        }
-        again.push(Station { time_s, ..*station });
-    }
-    again
 }
 
 impl Lit {

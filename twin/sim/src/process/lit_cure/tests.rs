@@ -2,9 +2,15 @@
 
 use super::*;
 use crate::interval::Interval;
+use crate::pose::Vector;
+use crate::process::cure::shell_area_fraction;
+use crate::process::lamp::{Lobe, RingPlace};
+use crate::process::lights::{ALWAYS, Carrier, LampSet, Lights};
+use crate::process::lit::{Exposure, Lit, shine};
 use crate::process::material::OxygenLaw;
 use crate::process::tests::{close, within};
-use crate::process::tests_strand::resin as material;
+use crate::process::tests_course::{DOWN, straight};
+use crate::process::tests_strand::{resin as material, ring};
 use crate::process::{Material, Setting};
 
 fn range(nominal: f64, low: f64, high: f64) -> Interval {
@@ -76,7 +82,7 @@ fn heat_makes_it_gel_sooner_and_nothing_is_guessed_without() {
                 cold.cure.at(10.0)
             );
             assert!(warm.warmest_k.is_some_and(|kelvin| kelvin > 305.0 && kelvin < 600.0));
-            assert!(warm.sooner < 1.0 && warm.sooner > 0.5);
+            assert!(warm.sooner < 1.0 && warm.sooner > 0.2);
             assert!(
                 warm.cure.gel_age_s < cold.cure.gel_age_s
                     && warm.cure.at(10.0) > cold.cure.at(10.0)
@@ -127,4 +133,60 @@ fn oxygen_that_came_back_eats_the_first_of_the_second_light() {
     // a skin of unknown thickness owes nothing that could be told
     let skinless = Photopolymer { tacky_skin_m: None, ..airy };
     assert_eq!(of(&skinless), without);
+}
+
+/// Light of the ring of the reference on a strand that goes straight up.
+fn shone(radius_m: f64, speed_m_s: f64, resin: &Photopolymer, warmth: Option<Warmth>) -> Lit {
+    let course = straight(0.06, speed_m_s, DOWN, Vector::z());
+    let ring = ring();
+    let exposure = Exposure {
+        lights: &|corner: Corner| {
+            let place = RingPlace::of(&ring, ring.aim_m);
+            let peak_w_sr = corner.helpful(ring.intensity_w_sr);
+            let lamps = place.lamps(peak_w_sr, ring.full_angle_rad, Lobe::Gaussian);
+            let set = LampSet { carrier: Carrier::Tool, lamps, on_s: vec![ALWAYS] };
+            Lights { sets: vec![set], shades: Vec::new() }
+        },
+        radius_m,
+        length_m: 0.06,
+        second_pass_m_s: None,
+        post_cure_j_m2: None,
+        resting: false,
+        temperature_k: STILL.temperature_k,
+        warmth,
+    };
+    shine(&course, resin, &exposure)
+}
+
+#[test]
+fn a_lit_strand_gels_sooner_by_its_heat_and_carries_less_by_its_skin() {
+    let (material, resin) = library();
+    let before = Photopolymer { tacky_skin_m: None, reaction_heat_j_kg: None, ..resin.clone() };
+    for (radius_m, speed_m_s) in [(0.75e-3, 2e-3), (1.5e-3, 2e-3), (1.5e-3, 5e-3)] {
+        let warmth = Some(Warmth { material: &material, air: &STILL, speed_m_s });
+        let (cold, warm) = (
+            shone(radius_m, speed_m_s, &before, warmth),
+            shone(radius_m, speed_m_s, &resin, warmth),
+        );
+        println!("R {radius_m} v {speed_m_s}");
+        println!("  dose {:?}", cold.dose_j_m2[cold.dose_j_m2.len() / 2]);
+        println!("  gel {:?} -> {:?}", cold.median_gel_s(), warm.median_gel_s());
+        println!("  warmest {:?}", warm.warmest_k);
+        println!("  area {:?} -> {:?}", cold.area_fraction, warm.area_fraction);
+        println!("  stiffness {:?} -> {:?}", cold.stiffness_fraction, warm.stiffness_fraction);
+        let degree = |lit: &Lit| lit.cure.as_ref().map(|cure| (cure.gel_age_s, cure.at(3600.0)));
+        println!("  cure {:?} -> {:?}", degree(&cold), degree(&warm));
+        // Nothing of it moves where the material does not tell, be the air known or not.
+        assert_eq!(cold, shone(radius_m, speed_m_s, &before, None));
+        assert_eq!(cold.warmest_k, None);
+        assert_eq!((&cold.dose_j_m2, &cold.depth_m), (&warm.dose_j_m2, &warm.depth_m));
+        let (sooner, later) = (warm.median_gel_s(), cold.median_gel_s());
+        assert!(sooner.nominal < later.nominal && sooner.nominal > 0.5 * later.nominal);
+        let skin = shell_area_fraction(30e-6, radius_m);
+        close(cold.area_fraction.nominal - warm.area_fraction.nominal, skin, 0.02);
+        let (warmest, degree) =
+            (warm.warmest_k.expect("told"), warm.cure.expect("told").at(3600.0));
+        assert!(warmest.low > STILL.temperature_k && warmest.high > warmest.nominal);
+        assert!(degree > cold.cure.expect("told").at(3600.0));
+    }
 }

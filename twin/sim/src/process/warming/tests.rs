@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::process::cure::cure_depth_m;
 use crate::process::cured::cure;
 use crate::process::tests::{close, within};
 use crate::process::tests_kinetics::{resin, run as cured, steady};
@@ -71,6 +72,25 @@ fn endless_loss_is_the_cold_run() {
 }
 
 #[test]
+fn without_heat_the_front_of_gel_is_that_of_the_working_curve() {
+    let inert = Body { enthalpy_j_kg: 0.0, ..body() };
+    let kinetics = resin(0.6);
+    let cold = cured(&kinetics, &steady(200.0, 2.0));
+    for grid in [[8, 16], [64, 64]] {
+        let got = at_h(10.0, &inert, &lit(2.0), grid);
+        let middles = (0..grid[0]).map(|i| 1.5e-3 * ((i as f64 + 0.5) / grid[0] as f64).sqrt());
+        // A share e of the rate is a share e^(1/b) of the light to `Cured`.
+        let share = |r: f64| ((r - 1.5e-3) / 0.3e-3_f64).exp();
+        let want: Vec<f64> =
+            middles.clone().map(|r| cold.at_behind(2.0, share(r).powf(1.0 / 0.6))).collect();
+        within(got.mean_degree, want.iter().sum::<f64>() / grid[0] as f64, 1e-9);
+        let depth_m = cure_depth_m(0.3e-3, 400.0, 100.0);
+        let gelled = middles.zip(&want).all(|(r, a)| (*a >= 0.15) == (1.5e-3 - r <= depth_m));
+        assert!(gelled, "the rings that gel are those above Jacobs' depth");
+    }
+}
+
+#[test]
 fn one_rate_cools_a_strand_that_conducts() {
     // Cured at once and left in the dark: the lumped law, T∞ + ΔT exp(−4 h t/(ρ cp D)).
     let metal = Body { conductivity_w_mk: 1e6, penetration_m: 1e3, ..body() };
@@ -107,8 +127,8 @@ fn steps_converge_with_the_square_and_rings_do() {
     let usual = run([RINGS, STEPS]);
     println!("usual {:?}", (usual.warmest_k, usual.warmest_mean_k, usual.surface_degree));
     println!("fine {:?}", (fine.warmest_k, fine.warmest_mean_k, fine.surface_degree));
-    close(usual.warmest_k - AIR_K, fine.warmest_k - AIR_K, 0.05);
-    close(usual.warmest_mean_k - AIR_K, fine.warmest_mean_k - AIR_K, 0.05);
+    close(usual.warmest_k - AIR_K, fine.warmest_k - AIR_K, 0.1);
+    close(usual.warmest_mean_k - AIR_K, fine.warmest_mean_k - AIR_K, 0.02);
     within(usual.surface_degree, fine.surface_degree, 5e-3);
     // The history it gives cures the same by the law of any history.
     let by_history = cure(&kinetics, &curve, &usual.surface, None);
