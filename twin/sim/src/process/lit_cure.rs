@@ -73,7 +73,7 @@ pub struct Curing {
 /// nothing is guessed. Oxygen that comes back between passes needs `oxygen` and `tacky_skin_m` of the resin. Corners: critical exposure,
 /// activation energy, penetration, heat of reaction, specific heat; fast is warm, so its air takes away little: jets and
 /// correlations are those of the slow corner. Conductivity, emissivity and density nominal. Cost: a cure curve
-/// and, with heat, [`warm`]: 0.3 ms.
+/// and, with heat, [`warm`].
 pub fn curing(law: KineticsLaw, resin: &Photopolymer, place: &Place, corner: Corner) -> Curing {
     let kinetics = kinetics(law, resin, place.whole.irradiance_w_m2, corner);
     let curve = kinetics.kamal.curve();
