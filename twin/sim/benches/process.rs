@@ -63,6 +63,7 @@ fn closed_forms(criterion: &mut Criterion) {
         swell: Interval::new(1.058, 1.0, 1.1),
         gravity_across_m_s2: 9.81,
         ends: Ends::BothHeld,
+        mixer_m3: 0.0,
         dwell_s: 0.0,
         air: Air { temperature_k: 296.15, room_m_s: 0.0, jet: Some(jet), blown: None },
         light: None,

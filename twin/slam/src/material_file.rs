@@ -104,6 +104,8 @@ pub enum SettingFile {
         exposure_activation_j_mol: Option<Number>,
         /// Skin that air keeps tacky, m.
         tacky_skin_m: Option<Number>,
+        /// Oxygen in it, for second passes of light.
+        oxygen: Option<OxygenFile>,
         /// Consistency `K` of the flowing gel, Pa sⁿ.
         consistency_pa_sn: Option<Number>,
         /// Exponent `n` of the flowing gel.
@@ -115,8 +117,13 @@ pub enum SettingFile {
     },
     /// By the clock, from the mixer on.
     TwoPart {
-        /// Time from nozzle to set, s.
+        /// Time to set, s: from the nozzle on, or, with `activation_j_mol` and `reference_k`, from the mixer on at
+        /// that temperature.
         set_time_s: Number,
+        /// Activation energy of its clock, J/mol; with `reference_k` or not at all.
+        activation_j_mol: Option<Number>,
+        /// Temperature to which the set time refers, K.
+        reference_k: Option<f64>,
         /// Viscosity as it leaves the nozzle, Pa s.
         viscosity_pa_s: Number,
         /// Linear shrinkage after the gel point.
@@ -200,6 +207,25 @@ pub struct KineticsFile {
     pub gel: f64,
     /// Greatest degree of cure at room temperature.
     pub max: f64,
+    /// How they are known.
+    pub status: Status,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// Oxygen in a resin that stands in air: what it costs to light a surface again that was dark for a while. Needs
+/// `tacky_skin_m` as well.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OxygenFile {
+    /// Dissolved oxygen, mol/m³.
+    pub dissolved_mol_m3: f64,
+    /// Its diffusivity, m²/s.
+    pub diffusivity_m2_s: f64,
+    /// Radicals to a photon absorbed.
+    pub quantum_yield: f64,
+    /// Wavelength of the light, m.
+    pub wavelength_m: f64,
     /// How they are known.
     pub status: Status,
     /// Where they come from.
@@ -335,6 +361,13 @@ fn coefficients(law: Place<'_>, checks: &mut Checks) {
         checks.number(weld.get("factor_low"), Rule::AboveUpTo(0.0, 1.0));
         checks.number(weld.get("factor_high"), Rule::FromTo(1.0, 1e6));
     }
+    clock(law, checks);
+    if let Some(oxygen) = law.get("oxygen") {
+        for key in ["dissolved_mol_m3", "diffusivity_m2_s", "wavelength_m"] {
+            checks.number(oxygen.get(key), Rule::Positive);
+        }
+        checks.number(oxygen.get("quantum_yield"), Rule::AboveUpTo(0.0, 2.0));
+    }
     if let Some(kinetics) = law.get("kinetics") {
         for key in ["m", "n", "k2_over_k1"] {
             checks.number(kinetics.get(key), Rule::FromTo(0.0, 100.0));
@@ -352,6 +385,19 @@ fn coefficients(law: Place<'_>, checks: &mut Checks) {
             checks.refuse(Diagnostic::error(place.span(), says).hint("`gel` is below `max`"));
         }
     }
+}
+
+/// The clock of a two-part resin: both of its numbers or none.
+fn clock(law: Place<'_>, checks: &mut Checks) {
+    checks.number(law.get("reference_k"), Rule::Positive);
+    let one = match (law.get("activation_j_mol"), law.get("reference_k")) {
+        (Some(activation), None) => activation,
+        (None, Some(reference)) => reference,
+        _ => return,
+    };
+    let says = "`activation_j_mol` and `reference_k` go together";
+    let hint = "without both, the set time is taken as seen behind the nozzle";
+    checks.refuse(Diagnostic::error(one.span(), says).hint(hint));
 }
 
 fn cross_wlf(fit: Place<'_>, law: Place<'_>, checks: &mut Checks) {

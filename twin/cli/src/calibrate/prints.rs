@@ -58,6 +58,7 @@ fn strand(
         gravity_across_m_s2: cell.gravity_m_s2.norm(),
         // Each print says its own.
         ends: Ends::BothHeld,
+        mixer_m3: cell.extruder.mixer_m3.unwrap_or(0.0),
         dwell_s: 0.0,
         air: Air {
             blown: None,

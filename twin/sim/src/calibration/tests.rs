@@ -60,6 +60,7 @@ pub(super) fn resin() -> Known {
         reaction_heat_j_kg: None,
         exposure_activation_j_mol: None,
         tacky_skin_m: None,
+        oxygen: None,
         flow: None,
         surface_tension_n_m: None,
         gel_density_kg_m3: exact(1130.0),
@@ -96,6 +97,7 @@ pub(super) fn strand(length_m: f64, speed_m_s: f64) -> StrandInput {
         swell: Interval::exact(1.0),
         gravity_across_m_s2: 9.806_65,
         ends: Ends::Resting,
+        mixer_m3: 0.0,
         dwell_s: 0.0,
         air: Air {
             temperature_k: 296.15,
@@ -369,6 +371,8 @@ fn taut_bridges_bound_slack_from_above() {
 fn two_part_material_has_a_viscosity_of_its_own() {
     let setting = Setting::TwoPart(TwoPart {
         pot_life_s: None,
+        activation_j_mol: None,
+        reference_k: None,
         set_time_s: range(0.5, 0.3, 1.0),
         viscosity_pa_s: range(50.0, 20.0, 200.0),
         linear_shrinkage: range(0.01, 0.002, 0.03),

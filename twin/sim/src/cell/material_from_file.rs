@@ -4,7 +4,7 @@ use slam::material_file::{MaterialFile, Number, SettingFile};
 
 use crate::interval::Interval;
 use crate::process::{
-    CrossWlf, GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw,
+    CrossWlf, GelFlow, HeatLaw, KineticsLaw, Material, OxygenLaw, Photopolymer, Setting, TaitLaw,
     Thermoplastic, TwoPart, WeldLaw,
 };
 
@@ -83,6 +83,7 @@ fn setting(file: &SettingFile) -> Setting {
             reaction_heat_j_kg,
             exposure_activation_j_mol,
             tacky_skin_m,
+            oxygen,
             consistency_pa_sn,
             flow_index,
             recovery_s,
@@ -108,17 +109,30 @@ fn setting(file: &SettingFile) -> Setting {
             reaction_heat_j_kg: reaction_heat_j_kg.as_ref().map(interval),
             exposure_activation_j_mol: exposure_activation_j_mol.as_ref().map(interval),
             tacky_skin_m: tacky_skin_m.as_ref().map(interval),
+            oxygen: oxygen.as_ref().map(|law| OxygenLaw {
+                dissolved_mol_m3: law.dissolved_mol_m3,
+                diffusivity_m2_s: law.diffusivity_m2_s,
+                quantum_yield: law.quantum_yield,
+                wavelength_m: law.wavelength_m,
+            }),
             flow: gel_flow(consistency_pa_sn, flow_index, recovery_s),
             surface_tension_n_m: surface_tension_n_m.as_ref().map(interval),
         }),
-        SettingFile::TwoPart { set_time_s, viscosity_pa_s, linear_shrinkage, pot_life_s } => {
-            Setting::TwoPart(TwoPart {
-                set_time_s: interval(set_time_s),
-                viscosity_pa_s: interval(viscosity_pa_s),
-                linear_shrinkage: interval(linear_shrinkage),
-                pot_life_s: pot_life_s.as_ref().map(interval),
-            })
-        }
+        SettingFile::TwoPart {
+            set_time_s,
+            activation_j_mol,
+            reference_k,
+            viscosity_pa_s,
+            linear_shrinkage,
+            pot_life_s,
+        } => Setting::TwoPart(TwoPart {
+            set_time_s: interval(set_time_s),
+            activation_j_mol: activation_j_mol.as_ref().map(interval),
+            reference_k: *reference_k,
+            viscosity_pa_s: interval(viscosity_pa_s),
+            linear_shrinkage: interval(linear_shrinkage),
+            pot_life_s: pot_life_s.as_ref().map(interval),
+        }),
     }
 }
 

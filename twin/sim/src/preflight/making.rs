@@ -15,6 +15,7 @@ use crate::process::fed::{self, BeadAt, Fed};
 use crate::process::history::Corner;
 use crate::process::jet::{self, JetProfile};
 use crate::process::lit::{self, Lit};
+use crate::process::lit_cure::Warmth;
 use crate::process::sag::LINEAR_LIMIT;
 use crate::process::section::round;
 use crate::process::soft_rod::{self, Sagged};
@@ -191,6 +192,7 @@ fn make_one(
         swell: job.cell.extruder.swell,
         gravity_across_m_s2: across_m_s2,
         ends,
+        mixer_m3: job.cell.extruder.mixer_m3.unwrap_or(0.0),
         dwell_s: strand.end.dwell_s,
         air: Air {
             temperature_k: job.air.temperature_k,
@@ -202,7 +204,7 @@ fn make_one(
     };
     let heats = Heats::new(&input, &job.material);
     let mut outcome = process::simulate_with(&input, &job.material, &heats);
-    let lit = shine(job, &course, path, &mut outcome, strand);
+    let lit = shine(job, &course, &input, &mut outcome, strand);
     let rod = Rod { input: &input, course: &course, job, heats: &heats, stretch_m };
     let sagged = rod.replaces(&mut outcome);
     let touches = contacts.len();
@@ -214,7 +216,7 @@ fn make_one(
 fn shine(
     job: &Job,
     course: &Course,
-    path: &Path,
+    input: &StrandInput,
     outcome: &mut StrandOutcome,
     strand: &crate::cell::Strand,
 ) -> Option<Lit> {
@@ -226,11 +228,16 @@ fn shine(
     let exposure = lit::Exposure {
         lights: &|corner| lighting::lights(job, radius_m, corner),
         radius_m,
-        length_m: path.length_m,
+        length_m: input.length_m,
         second_pass_m_s: strand.settings.second_pass_m_s,
         post_cure_j_m2: strand.settings.post_cure_j_m2,
         resting: strand.on != On::Air,
         temperature_k: job.air.temperature_k,
+        warmth: Some(Warmth {
+            material: &job.material,
+            air: &input.air,
+            speed_m_s: input.speed_m_s,
+        }),
     };
     let lit = lit::shine(course, resin, &exposure);
     let (_, depth_m) = lit.least()?;
@@ -239,9 +246,17 @@ fn shine(
     outcome.area_fraction = lit.area_fraction;
     outcome.stiffness_fraction = lit.stiffness_fraction;
     outcome.set_time_s = lit.median_gel_s();
-    let speed_m_s = path.length_m / course.time_at_s(path.length_m).max(f64::MIN_POSITIVE);
+    let length_m = input.length_m;
+    let speed_m_s = length_m / course.time_at_s(length_m).max(f64::MIN_POSITIVE);
     outcome.set_distance_m = outcome.set_time_s.map(|time_s| time_s * speed_m_s);
     outcome.laws.extend(["lamps as geometry", "dose on the surface", "dose through the section"]);
+    if lit.warmest_k.is_some() {
+        outcome.laws.push("heat of cure through the section");
+    }
+    if resin.oxygen.is_some() && resin.tacky_skin_m.is_some() && exposure.second_pass_m_s.is_some()
+    {
+        outcome.laws.push("oxygen back before the second pass");
+    }
     Some(lit)
 }
 

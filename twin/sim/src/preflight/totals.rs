@@ -204,8 +204,20 @@ fn process_assumptions(job: &Job, say: &mut impl FnMut(&'static str, String)) {
                     "cure kinetics are fitted to the critical exposure; nobody has published rates for this resin.",
                 );
             }
+            if resin.kinetics.is_some() && resin.reaction_heat_j_kg.is_some() {
+                law(
+                    "heat of cure warms the middle of a strand and with it its gel age and degree of cure, not its cured depth, sag or shrinkage.",
+                );
+            } else {
+                law(
+                    "no heat of reaction or kinetics are known of this resin: it stays as warm as the air.",
+                );
+            }
+            if resin.tacky_skin_m.is_none() {
+                law("how thick a skin air keeps tacky is not known: all that is cured carries.");
+            }
             law(
-                "heat of reaction, bleaching, refraction and light thrown back by the bed into the strand are left out of its dose.",
+                "bleaching, refraction and light thrown back by the bed into the strand are left out of its dose.",
             );
             if job.cell.bed.albedo.is_none() {
                 law("how much light the bed throws back is not known: it can only warn (P308).");
@@ -214,9 +226,19 @@ fn process_assumptions(job: &Job, say: &mut impl FnMut(&'static str, String)) {
                 law(
                     "a second pass is credited with its dose; its motion and time are not planned.",
                 );
+                if resin.oxygen.is_none() || resin.tacky_skin_m.is_none() {
+                    law(
+                        "the oxygen of this resin is not known: what comes back before the second pass is left out.",
+                    );
+                }
             }
         }
         Setting::TwoPart(mix) => {
+            if mix.activation_j_mol.is_none() || mix.reference_k.is_none() {
+                law(
+                    "how this mix's clock goes with temperature is not known: its set time is that behind the nozzle, in any air and mixer.",
+                );
+            }
             if mix.pot_life_s.is_none() {
                 law("the pot life of this mix is not known: idle time is not judged.");
             }

@@ -2,9 +2,10 @@
 
 use crate::interval::Interval;
 
+use super::clock::{Clock, age_at_nozzle_s};
 use super::cure::{gel_time_s, modulus_at_dose_pa};
 use super::heat::modulus_through_glass_pa;
-use super::material::{Material, Photopolymer, Setting};
+use super::material::{Material, Photopolymer, Setting, TwoPart};
 use super::strand::StrandInput;
 use super::thermal::{Heat, heat};
 
@@ -59,6 +60,29 @@ pub fn light_set_s(input: &StrandInput, resin: &Photopolymer, corner: Corner) ->
     }
 }
 
+/// Age at which a two-part strand sets at a corner, s.
+///
+/// Where the material gives activation energy and reference temperature, its set time counts from the mixer: what it
+/// spent there, `V/Q` in plug flow, is taken off, and both mixer and strand are as warm as the air
+/// ([`Clock::set_after_nozzle_s`]; the air for the mixer is ours, heat of cure is left out). Zero where it sets in
+/// the mixer. Else the set time is that after the nozzle, as it was seen, whatever mixer and air. Corners: set time, and
+/// the end of the activation energy that is the slower in this air.
+pub fn clock_set_s(input: &StrandInput, mix: &TwoPart, corner: Corner) -> f64 {
+    let set_time_s = corner.harmful(mix.set_time_s);
+    let (Some(activation), Some(reference_k)) = (mix.activation_j_mol, mix.reference_k) else {
+        return set_time_s;
+    };
+    let residence_s =
+        if input.mixer_m3 > 0.0 { age_at_nozzle_s(input.mixer_m3, input.flow_m3_s) } else { 0.0 };
+    let air_k = input.air.temperature_k;
+    let set_s = |activation_j_mol: f64| {
+        // The pot life plays no part in this.
+        let clock = Clock { set_time_s, pot_life_s: f64::NAN, activation_j_mol, reference_k };
+        clock.set_after_nozzle_s(residence_s, air_k, air_k)
+    };
+    corner.harmful(activation.map(set_s))
+}
+
 /// A strand's nominal temperature and modulus against its age.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
@@ -95,7 +119,9 @@ impl History {
                     set_pa,
                 }
             }
-            Setting::TwoPart(mix) => Law::Clock { set_s: mix.set_time_s.nominal, set_pa },
+            Setting::TwoPart(mix) => {
+                Law::Clock { set_s: clock_set_s(input, mix, Corner::Nominal), set_pa }
+            }
         };
         Self { air_k: input.air.temperature_k, law }
     }

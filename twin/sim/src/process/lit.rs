@@ -1,20 +1,17 @@
 //! What the lights make of a strand along its length: dose, cured shell, gel age, degree of cure.
 
 use super::course::Course;
-use super::cured::{self, Cured, Exposed};
-use super::dose::{AZIMUTHS, Run, SegmentDose, Strand, add_run, segments};
+use super::cured::Cured;
+use super::dose::{AZIMUTHS, Run, Segment, SegmentDose, Strand, add_run};
 use super::history::Corner;
-use super::kamal::Kamal;
-use super::kinetics::Kinetics;
 use super::lights::{Lights, Station};
-use super::material::{KineticsLaw, Photopolymer};
+use super::lit_cure::{Curing, Pass, Place, Warmth, curing};
+use super::material::Photopolymer;
 use super::through::{Inside, Section};
 use crate::interval::Interval;
+use stations::{middles, own_segments, second_pass, stations};
 
-/// Most segments light is summed on; longer strands are cut more coarsely.
-const MOST_SEGMENTS: usize = 240;
-/// Temperature to which exposures and rates refer, K.
-const REFERENCE_K: f64 = 298.15;
+mod stations;
 
 /// Light and what it leaves, segment by segment; intervals at corners of lamps, critical exposure and
 /// penetration.
@@ -36,6 +33,8 @@ pub struct Lit {
     pub post_cured_m: Option<Interval>,
     /// Greatest degree of cure at the surface of the middle segment, and when it began, s; where kinetics are known.
     pub cure: Option<Cured>,
+    /// Greatest temperature in the middle segment as it cures, K; where kinetics and heat of reaction are known.
+    pub warmest_k: Option<Interval>,
 }
 
 /// What is asked of the lights.
@@ -56,6 +55,8 @@ pub struct Exposure<'a> {
     pub resting: bool,
     /// Temperature of the strand, K.
     pub temperature_k: f64,
+    /// What its heat of cure goes into and where it goes; `None`: the strand stays at its temperature.
+    pub warmth: Option<Warmth<'a>>,
 }
 
 /// Light on a strand and what it cures. Nominal and slow corners take light inside the strand as bent square to its
@@ -63,8 +64,19 @@ pub struct Exposure<'a> {
 pub fn shine(course: &Course, resin: &Photopolymer, exposure: &Exposure) -> Lit {
     let stations = stations(course, exposure.length_m);
     let corners = [Corner::Nominal, Corner::Fast, Corner::Slow];
-    let made = corners.map(|corner| at_corner(course, resin, exposure, &stations, corner));
+    let mut made = corners.map(|corner| at_corner(course, resin, exposure, &stations, corner));
     let n = made[0].len();
+    let [nominal, fast, slow] = std::array::from_fn(|k| {
+        let curing = warm(resin, exposure, &mut made[k], corners[k]);
+        curing.filter(|curing| k == 0 || curing.warmest_k.is_some())
+    });
+    let warmest = |curing: &Option<Curing>| curing.as_ref().and_then(|curing| curing.warmest_k);
+    let warmest_k = warmest(&nominal).map(|nominal_k| {
+        // A corner at which it never gels makes no heat that is told of.
+        let [fast_k, slow_k] = [&fast, &slow].map(warmest);
+        let air_k = exposure.temperature_k;
+        Interval::new(nominal_k, fast_k.unwrap_or(air_k), slow_k.unwrap_or(air_k))
+    });
     let of = |value: &dyn Fn(&Made) -> f64| -> Vec<Interval> {
         let at = |k: usize| made.each_ref().map(|corner| value(&corner[k]));
         (0..n).map(at).map(|[nominal, fast, slow]| Interval::new(nominal, fast, slow)).collect()
@@ -89,10 +101,8 @@ pub fn shine(course: &Course, resin: &Photopolymer, exposure: &Exposure) -> Lit 
         area_fraction: mean(&|m| m.area),
         stiffness_fraction: mean(&|m| m.stiffness),
         post_cured_m,
-        cure: resin.kinetics.and_then(|law| {
-            let middle = made[0].get(n / 2)?;
-            degree(law, resin, middle, exposure.temperature_k)
-        }),
+        cure: nominal.map(|curing| curing.cure),
+        warmest_k,
     }
 }
 
@@ -107,6 +117,8 @@ struct Made {
     post_cured_m: f64,
     lit_s: f64,
     irradiance_w_m2: f64,
+    /// Light of the second pass alone; of the middle segment.
+    second: Option<Pass>,
 }
 
 fn at_corner(
@@ -126,6 +138,7 @@ fn at_corner(
     let own = own_segments(stations, exposure.length_m, course);
     let mut doses = vec![SegmentDose::dark(AZIMUTHS); own.len()];
     add_run(&own, &mut doses, &run, &strand);
+    let mut second = None;
     if let Some(speed_m_s) = exposure.second_pass_m_s {
         let again = second_pass(stations, course, speed_m_s);
         for set in &mut lights.sets {
@@ -133,12 +146,17 @@ fn at_corner(
         }
         let run = Run { stations: &again, dwell_s: 0.0, lights: &lights };
         add_run(&own, &mut doses, &run, &strand);
+        if resin.kinetics.is_some() && (resin.oxygen.is_some() || exposure.warmth.is_some()) {
+            second = own.get(own.len() / 2).and_then(|segment| alone(segment, &run, &strand));
+        }
     }
     let penetration_m = corner.helpful(resin.penetration_m);
     let inside = if corner == Corner::Fast { Inside::Straight } else { Inside::Radial };
     let section = |doses: &[f64]| {
         let radius_m = exposure.radius_m;
-        Section { radius_m, penetration_m, critical_j_m2, doses_j_m2: doses, inside }.cured()
+        let skin_m = resin.tacky_skin_m.map_or(0.0, |skin_m| corner.harmful(skin_m));
+        Section { radius_m, penetration_m, critical_j_m2, doses_j_m2: doses, inside }
+            .cured_under(skin_m)
     };
     doses
         .iter()
@@ -166,101 +184,71 @@ fn at_corner(
                 post_cured_m,
                 lit_s: dose.lit_s(),
                 irradiance_w_m2: dose.peak_w_m2,
+                second,
             }
         })
         .collect()
 }
 
-/// Degree of cure at the surface of a segment that was lit evenly until it had its dose.
-fn degree(
-    law: KineticsLaw,
+/// The light of a run on one segment alone; `None` where it stays dark.
+fn alone(segment: &Segment, run: &Run, strand: &Strand) -> Option<Pass> {
+    let mut dose = [SegmentDose::dark(AZIMUTHS)];
+    add_run(std::slice::from_ref(segment), &mut dose, run, strand);
+    let [dose] = dose;
+    let irradiance_w_m2 = dose.peak_w_m2;
+    let apart = |station: &&Station| (station.point - segment.middle).norm();
+    let near = run.stations.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    let from_s = if dose.mean_gel_s.is_finite() {
+        dose.mean_gel_s - strand.critical_j_m2 / irradiance_w_m2
+    } else {
+        near.time_s - segment.born_s
+    };
+    (irradiance_w_m2 > 0.0).then_some(Pass { from_s, lit_s: dose.lit_s(), irradiance_w_m2 })
+}
+
+/// Cure of the middle segment; where it warms, all gel so much sooner after their light begins.
+fn warm(
     resin: &Photopolymer,
-    made: &Made,
-    temperature_k: f64,
-) -> Option<Cured> {
-    if !(made.irradiance_w_m2 > 0.0) || !made.gel_s.is_finite() {
+    exposure: &Exposure,
+    made: &mut [Made],
+    corner: Corner,
+) -> Option<Curing> {
+    let law = resin.kinetics?;
+    if corner != Corner::Nominal
+        && (exposure.warmth.is_none() || resin.reaction_heat_j_kg.is_none())
+    {
         return None;
     }
-    let kinetics = Kinetics {
-        kamal: Kamal {
-            m: law.m,
-            n: law.n,
-            k1_per_s: 1.0,
-            k2_per_s: law.k2_over_k1,
-            gel: law.gel,
-            max: law.max,
-        },
-        b: law.b,
-        activation_j_mol: resin.exposure_activation_j_mol.map_or(0.0, |ea| ea.nominal),
-        reference_w_m2: law.measured_at_w_m2.unwrap_or(made.irradiance_w_m2),
-        reference_k: REFERENCE_K,
+    let middle = made.get(made.len() / 2)?;
+    if !(middle.irradiance_w_m2 > 0.0) || !middle.gel_s.is_finite() {
+        return None;
     }
-    .calibrated(resin.critical_exposure_j_m2.nominal);
-    let gel_lit_s = resin.critical_exposure_j_m2.nominal / made.irradiance_w_m2;
-    let from_s = (made.gel_s - gel_lit_s).max(0.0);
-    let at = |age_s: f64, irradiance_w_m2: f64| Exposed { age_s, irradiance_w_m2, temperature_k };
-    let to_s = from_s + made.lit_s;
-    let history = [
-        at(0.0, 0.0),
-        at(from_s, 0.0),
-        at(from_s, made.irradiance_w_m2),
-        at(to_s, made.irradiance_w_m2),
-        at(to_s, 0.0),
-    ];
-    Some(cured::cure(&kinetics, &kinetics.kamal.curve(), &history, None))
-}
-
-/// The nozzle's way as the light laws want it, at most [`MOST_SEGMENTS`] steps along the strand, and what it travels
-/// past the end.
-fn stations(course: &Course, length_m: f64) -> Vec<Station> {
-    let every = course.stations.len().div_ceil(MOST_SEGMENTS).max(1);
-    let last = course.stations.len() - 1;
-    course
-        .stations
-        .iter()
-        .enumerate()
-        .filter(|(k, station)| {
-            k % every == 0 || *k == last || (station.at_m - length_m).abs() < 1e-9
-        })
-        .map(|(_, station)| Station {
-            time_s: station.time_s,
-            point: station.point,
-            part_from_tool: station.part_from_tool,
-            part_from_room: station.part_from_room,
-        })
-        .collect()
-}
-
-/// Segments of the strand itself, without what the nozzle travels past its end.
-fn own_segments(stations: &[Station], length_m: f64, course: &Course) -> Vec<super::dose::Segment> {
-    let end_s = course.time_at_s(length_m) + 1e-9;
-    let mut own = segments(stations);
-    own.retain(|segment| segment.born_s < end_s);
-    own
-}
-
-fn middles(stations: &[Station], length_m: f64, n: usize) -> Vec<f64> {
-    let mut at_m = 0.0;
-    let mut middles = Vec::with_capacity(n);
-    for pair in stations.windows(2).take(n) {
-        let step_m = (pair[1].point - pair[0].point).norm();
-        middles.push((at_m + 0.5 * step_m).min(length_m));
-        at_m += step_m;
-    }
-    middles
-}
-
-/// The same way once more, at a steady speed, after the first pass.
-fn second_pass(stations: &[Station], course: &Course, speed_m_s: f64) -> Vec<Station> {
-    let mut time_s = stations.last().map_or(0.0, |last| last.time_s) + course.dwell_s;
-    let mut again = Vec::with_capacity(stations.len());
-    for (k, station) in stations.iter().enumerate() {
-        if k > 0 {
-            time_s += (station.point - stations[k - 1].point).norm() / speed_m_s;
+    let critical_j_m2 = corner.harmful(resin.critical_exposure_j_m2);
+    let begun_s = |made: &Made| (made.gel_s - critical_j_m2 / made.irradiance_w_m2).max(0.0);
+    let irradiance_w_m2 = middle.irradiance_w_m2;
+    let whole = Pass { from_s: begun_s(middle), lit_s: middle.lit_s, irradiance_w_m2 };
+    let second = middle.second.filter(|second| second.from_s > middle.gel_s);
+    let twice = second.and_then(|second| {
+        // What the second pass did not give, the first did.
+        let first_j_m2 = middle.dose_j_m2 - second.lit_s * second.irradiance_w_m2;
+        let lit_s = (first_j_m2 / irradiance_w_m2).min(second.from_s - whole.from_s);
+        (lit_s > 0.0).then_some([Pass { lit_s, ..whole }, second])
+    });
+    let place = Place {
+        radius_m: exposure.radius_m,
+        temperature_k: exposure.temperature_k,
+        whole,
+        twice,
+        warmth: exposure.warmth,
+    };
+    let curing = curing(law, resin, &place, corner);
+    if curing.warmest_k.is_some() {
+        for made in made.iter_mut().filter(|made| made.gel_s.is_finite()) {
+            let from_s = begun_s(made);
+            made.gel_s = from_s + (made.gel_s - from_s) * curing.sooner;
         }
-        again.push(Station { time_s, ..*station });
     }
-    again
+    Some(curing)
 }
 
 impl Lit {

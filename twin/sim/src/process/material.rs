@@ -129,6 +129,8 @@ pub struct Photopolymer {
     pub exposure_activation_j_mol: Option<Interval>,
     /// Skin that air keeps tacky, m.
     pub tacky_skin_m: Option<Interval>,
+    /// Its oxygen, which eats light after a time in the dark; `None`: nobody knows.
+    pub oxygen: Option<OxygenLaw>,
     /// How the gel flows past its yield stress; `None`: nobody knows.
     pub flow: Option<GelFlow>,
     /// Surface tension, N/m.
@@ -154,6 +156,19 @@ pub struct KineticsLaw {
     pub max: f64,
 }
 
+/// Oxygen in a resin that stands in air.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OxygenLaw {
+    /// Dissolved oxygen, mol/m³.
+    pub dissolved_mol_m3: f64,
+    /// Its diffusivity, m²/s.
+    pub diffusivity_m2_s: f64,
+    /// Radicals to a photon absorbed.
+    pub quantum_yield: f64,
+    /// Wavelength of the light, m.
+    pub wavelength_m: f64,
+}
+
 /// A gel that flows past its yield stress: `τ = τ_y + K γ̇ⁿ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GelFlow {
@@ -168,8 +183,13 @@ pub struct GelFlow {
 /// What sets by the clock.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoPart {
-    /// Time from nozzle to set, s.
+    /// Time to set, s: from the nozzle on, or, where activation and reference are given, from the mixer on at the
+    /// reference temperature.
     pub set_time_s: Interval,
+    /// Activation energy of its clock, J/mol; `None`: nobody knows.
+    pub activation_j_mol: Option<Interval>,
+    /// Temperature to which the set time refers, K.
+    pub reference_k: Option<f64>,
     /// Viscosity as it leaves the nozzle, Pa s.
     pub viscosity_pa_s: Interval,
     /// Linear shrinkage after the gel point.

@@ -10,7 +10,7 @@
 //! | flow in, bead out | `drive`, `feed`, `fed`, `bead`, `coiling`, `section`, `threads` |
 //! | heat | `heat`, `air_side`, `jet`, `radial` and `cooled`, `thermal`, `reheat`, `tait`, `viscosity` |
 //! | light | `lamp`, `shade`, `lights`, `dose` (with `sweep`, `steps`, `reach`, `memo`, `irradiance`), `through`, `bed_light`, `lit`; a ring by formula: `light`, `cure` |
-//! | resins | `kamal`, `kinetics`, `cured`, `oxygen`, `solid`, `clock`, `gel`, `yield_stress`, `tube`, `plastic_bending` |
+//! | resins | `kamal`, `kinetics`, `cured`, `warming`, `lit_cure`, `oxygen`, `solid`, `clock`, `gel`, `yield_stress`, `tube`, `plastic_bending` |
 //! | sag | `sag`, `gel_sag`, `soft`, `rod` and `soft_rod`, `stretch`, `corotational`, `elastica`, `angle` |
 //! | joints, shrinkage | `contact`, `healing`, `shrinkage`, `age_samples` |
 
@@ -46,6 +46,7 @@ pub mod lamp;
 pub mod light;
 pub mod lights;
 pub mod lit;
+pub mod lit_cure;
 pub mod material;
 mod memo;
 pub mod oxygen;
@@ -71,14 +72,15 @@ pub mod threads;
 pub mod through;
 pub mod tube;
 pub mod viscosity;
+pub mod warming;
 pub mod yield_stress;
 
 pub use course::{Course, Station, Told};
 pub use history::History;
 pub use light::LightRing;
 pub use material::{
-    GelFlow, HeatLaw, KineticsLaw, Material, Photopolymer, Setting, TaitLaw, Thermoplastic,
-    TwoPart, WeldLaw,
+    GelFlow, HeatLaw, KineticsLaw, Material, OxygenLaw, Photopolymer, Setting, TaitLaw,
+    Thermoplastic, TwoPart, WeldLaw,
 };
 pub use strand::{
     Air, Blown, Ends, Fidelity, Heats, Jet, StrandInput, StrandOutcome, simulate, simulate_with,

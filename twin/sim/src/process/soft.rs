@@ -2,7 +2,7 @@
 
 use super::bead::drawn_diameter_m;
 use super::gel_sag::{FreshGel, GelStrand};
-use super::history::{Corner, light_set_s};
+use super::history::{Corner, clock_set_s, light_set_s};
 use super::material::{Material, Photopolymer, Setting, Thermoplastic};
 use super::sag::{Fluidity, LINEAR_LIMIT, SoftBeam, stretched_sag_m};
 use super::strand::{Ends, Heats, StrandInput};
@@ -83,7 +83,7 @@ pub(super) fn offset(
             gel_sag(&gels(input, resin, corner).map(strand), input.ends, corner)
         }
         Setting::TwoPart(mix) => {
-            let until_s = corner.harmful(mix.set_time_s).min(PATIENCE_S);
+            let until_s = clock_set_s(input, mix, corner).min(PATIENCE_S);
             liquid(&beam, corner.helpful(mix.viscosity_pa_s), until_s, corner)
         }
     };

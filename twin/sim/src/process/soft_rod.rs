@@ -4,7 +4,7 @@
 use super::corotational::{HeavyPiece, droop};
 use super::course::Course;
 use super::gel;
-use super::history::{Corner, light_set_s};
+use super::history::{Corner, clock_set_s, light_set_s};
 use super::material::{Material, Setting};
 use super::plastic_bending::plastic_moment_n_m;
 use super::rod::{
@@ -175,7 +175,7 @@ fn flow_law<'a>(
         }
         Setting::TwoPart(mix) => {
             let fluid = 1.0 / (3.0 * corner.helpful(mix.viscosity_pa_s));
-            (corner.harmful(mix.set_time_s), Box::new(move |_| fluid))
+            (clock_set_s(input, mix, corner), Box::new(move |_| fluid))
         }
     };
     (rigid_s.is_finite() && rigid_s > 0.0).then_some((rigid_s, law))

@@ -7,7 +7,7 @@ use super::cure::{
     cure_depth_m, set_distance_m, shell_area_fraction, shell_stiffness_fraction, uncured_core_m,
 };
 use super::heat::modulus_through_glass_pa;
-use super::history::{Corner, light_set_s};
+use super::history::{Corner, clock_set_s, light_set_s};
 use super::light::LightRing;
 use super::material::{Material, Photopolymer, Setting, Thermoplastic};
 use super::sag::{SetBeam, slack_sag_m};
@@ -46,6 +46,8 @@ pub struct StrandInput {
     pub gravity_across_m_s2: f64,
     /// What holds it.
     pub ends: Ends,
+    /// Volume between the mixer of a two-part resin and the orifice, m³; zero where unknown.
+    pub mixer_m3: f64,
     /// Time the nozzle waits at the end, s.
     pub dwell_s: f64,
     /// The air around it.
@@ -281,7 +283,7 @@ fn set_time_s(input: &StrandInput, material: &Material, heats: &Heats) -> Interv
             .at(corner)
             .map_or(f64::INFINITY, |heat| heat.time_to_s(corner.helpful(plastic.flow_arrest_k))),
         Setting::Photopolymer(resin) => light_set_s(input, resin, corner),
-        Setting::TwoPart(mix) => corner.harmful(mix.set_time_s),
+        Setting::TwoPart(mix) => clock_set_s(input, mix, corner),
     })
 }
 
@@ -324,9 +326,16 @@ fn shell(input: &StrandInput, material: &Material, radius_m: f64) -> Shell {
         return Shell { area: whole, stiffness: whole, core_m: None, depth_m: None };
     };
     let depth = Corner::interval(|corner| depth_m(input, resin, corner));
+    let under_skin = |share: fn(f64, f64) -> f64| {
+        Corner::interval(|corner| {
+            let skin_m = resin.tacky_skin_m.map_or(0.0, |skin_m| corner.harmful(skin_m));
+            let left = share(corner.helpful(depth), radius_m) - share(skin_m, radius_m);
+            if left < 0.0 { 0.0 } else { left }
+        })
+    };
     Shell {
-        area: depth.map(|d| shell_area_fraction(d, radius_m)),
-        stiffness: depth.map(|d| shell_stiffness_fraction(d, radius_m)),
+        area: under_skin(shell_area_fraction),
+        stiffness: under_skin(shell_stiffness_fraction),
         core_m: Some(depth.map(|d| uncured_core_m(d, radius_m))),
         depth_m: Some(depth),
     }
@@ -432,7 +441,7 @@ pub fn shortening_at(
             light_run(input, resin, corner).end_miss_m(length_m, speed_m_s, dwell_s)
         }
         Setting::TwoPart(mix) => {
-            let gel_s = corner.harmful(mix.set_time_s);
+            let gel_s = clock_set_s(input, mix, corner);
             let strain = corner.harmful(mix.linear_shrinkage);
             CureRun { strain, shadow_m: 0.0, gel_s, done_s: 2.0 * gel_s }
                 .end_miss_m(length_m, speed_m_s, dwell_s)
@@ -460,11 +469,20 @@ fn laws(input: &StrandInput, material: &Material) -> Vec<&'static str> {
         ]),
         Setting::Photopolymer(resin) => {
             laws.extend(["ring irradiance", "Jacobs cure depth", "shrinkage past the gel point"]);
+            if resin.tacky_skin_m.is_some() {
+                laws.push("tacky skin carries nothing");
+            }
             if input.ends != Ends::Resting {
                 laws.extend(gel_laws(resin));
             }
         }
-        Setting::TwoPart(_) => laws.extend(["set time", "shrinkage past the gel point"]),
+        Setting::TwoPart(mix) => {
+            laws.push("set time");
+            if mix.activation_j_mol.is_some() && mix.reference_k.is_some() {
+                laws.extend(["residence in the mixer", "Arrhenius clock"]);
+            }
+            laws.push("shrinkage past the gel point");
+        }
     }
     let gel = matches!(material.setting, Setting::Photopolymer(_));
     if input.ends != Ends::Resting && !gel {

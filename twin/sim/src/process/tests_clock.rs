@@ -158,3 +158,50 @@ proptest! {
         let _ = age_at_nozzle_s(v[8], v[9]);
     }
 }
+
+#[test]
+fn a_strand_sets_by_the_clock_of_its_mixer_where_the_material_tells() {
+    use super::history::{Corner, clock_set_s};
+    use super::kinetics::arrhenius;
+    use super::tests_strand::{strand, two_part};
+    use super::*;
+    use crate::interval::Interval;
+    let Setting::TwoPart(seen) = two_part().setting else { panic!("two parts") };
+    let set_s = |input: &StrandInput, mix: &TwoPart| {
+        Corner::interval(|corner| clock_set_s(input, mix, corner))
+    };
+    let mixed = StrandInput { mixer_m3: 63.3e-9, ..strand() }; // 10 s at 6.33 mm³/s
+    let residence_s = age_at_nozzle_s(mixed.mixer_m3, mixed.flow_m3_s);
+    // without the clock's numbers, mixer and air change nothing, to the bit
+    assert_eq!(simulate(&mixed, &two_part()), simulate(&strand(), &two_part()));
+    assert_eq!(set_s(&mixed, &seen), seen.set_time_s);
+    assert_eq!(
+        set_s(&mixed, &TwoPart { reference_k: Some(300.0), ..seen.clone() }),
+        seen.set_time_s
+    );
+    // with them it is the clock's, and at the reference with no mixer the set time itself
+    let air_k = strand().air.temperature_k;
+    let told = TwoPart {
+        set_time_s: Interval::new(40.0, 30.0, 60.0),
+        activation_j_mol: Some(Interval::new(50e3, 40e3, 60e3)),
+        reference_k: Some(298.15),
+        ..seen
+    };
+    let at_reference = TwoPart { reference_k: Some(air_k), ..told.clone() };
+    assert_eq!(set_s(&strand(), &at_reference), told.set_time_s);
+    let got = set_s(&mixed, &told);
+    close(got.nominal, 40.0 / arrhenius(50e3, 298.15, air_k) - residence_s, 1e-12);
+    // 22 °C is below the reference: the greater activation energy is the slower one
+    close(got.high, 60.0 / arrhenius(60e3, 298.15, air_k) - residence_s, 1e-12);
+    close(got.low, 30.0 / arrhenius(40e3, 298.15, air_k) - residence_s, 1e-12);
+    let material = Material { setting: Setting::TwoPart(told.clone()), ..two_part() };
+    let out = simulate(&mixed, &material);
+    assert_eq!(out.set_time_s, got);
+    assert!(out.laws.contains(&"Arrhenius clock"));
+    close(History::new(&mixed, &material).modulus_pa(got.nominal * 1.001), 1.6e9, 1e-12);
+    assert_eq!(History::new(&mixed, &material).modulus_pa(got.nominal * 0.999), 0.0);
+    // a mixer too large for the flow: it comes out set and does not sag
+    let slow = StrandInput { mixer_m3: 1e-6, ..mixed };
+    assert_eq!(set_s(&slow, &told), Interval::exact(0.0));
+    assert_eq!(simulate(&slow, &material).sag_nozzle_m.nominal, 0.0);
+}

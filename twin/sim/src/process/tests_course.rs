@@ -11,7 +11,12 @@ use super::*;
 use crate::pose::{Point, Pose, Vector};
 
 /// A straight way along x at a steady speed; the nozzle points down, the tool's axes are turned with it.
-fn straight(length_m: f64, speed_m_s: f64, gravity_m_s2: Vector, tangent: Vector) -> Course {
+pub(super) fn straight(
+    length_m: f64,
+    speed_m_s: f64,
+    gravity_m_s2: Vector,
+    tangent: Vector,
+) -> Course {
     let n = 61;
     let station = |k: usize| {
         let at_m = length_m * k as f64 / (n - 1) as f64;
@@ -35,7 +40,7 @@ fn straight(length_m: f64, speed_m_s: f64, gravity_m_s2: Vector, tangent: Vector
     }
 }
 
-const DOWN: Vector = Vector::new(0.0, 0.0, -9.806_65);
+pub(super) const DOWN: Vector = Vector::new(0.0, 0.0, -9.806_65);
 
 #[test]
 fn the_rod_agrees_with_the_closed_form_where_both_hold() {
@@ -104,6 +109,7 @@ fn lit(course: &Course, second_pass_m_s: Option<f64>, post_cure_j_m2: Option<f64
         post_cure_j_m2,
         resting: false,
         temperature_k: 298.15,
+        warmth: None,
     };
     shine(course, &resin, &exposure)
 }

@@ -78,6 +78,7 @@ pub(super) fn resin() -> Material {
             reaction_heat_j_kg: None,
             exposure_activation_j_mol: None,
             tacky_skin_m: None,
+            oxygen: None,
             flow: None,
             surface_tension_n_m: None,
             gel_density_kg_m3: exact(1130.0),
@@ -93,9 +94,11 @@ pub(super) fn resin() -> Material {
     }
 }
 
-fn two_part() -> Material {
+pub(super) fn two_part() -> Material {
     let setting = Setting::TwoPart(TwoPart {
         pot_life_s: None,
+        activation_j_mol: None,
+        reference_k: None,
         set_time_s: range(0.3, 0.3, 1.0),
         viscosity_pa_s: Interval::exact(50.0),
         linear_shrinkage: range(0.01, 0.002, 0.03),
@@ -115,6 +118,7 @@ pub(super) fn strand() -> StrandInput {
         swell: range(1.058, 1.0, 1.15),
         gravity_across_m_s2: 9.806_65,
         ends: Ends::BothHeld,
+        mixer_m3: 0.0,
         dwell_s: 0.0,
         air: Air {
             temperature_k: 295.15,

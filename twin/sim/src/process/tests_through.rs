@@ -172,3 +172,61 @@ fn laarman_set() {
     within(cure::gel_time_s(126.0, needed_w_m2), 0.3, 0.09);
     within(needed_w_m2 / 10.0, 42.0, 0.1);
 }
+
+#[test]
+fn a_tacky_skin_is_there_and_carries_nothing() {
+    // Even light, a shell of depth d under a skin s: R − d to R − s.
+    for (dose, radius_m) in [(400.0, 1.5e-3), (3450.0, 1.5e-3), (800.0, 0.75e-3)] {
+        let doses = [dose; 9];
+        let section = Section {
+            radius_m,
+            penetration_m: 300e-6,
+            critical_j_m2: 100.0,
+            doses_j_m2: &doses,
+            inside: Inside::Radial,
+        };
+        assert_eq!(section.cured_under(0.0), section.cured());
+        let (bare, under) = (section.cured(), section.cured_under(30e-6));
+        let depth = bare.least_depth_m;
+        assert_eq!((under.least_depth_m, under.mean_depth_m), (depth, bare.mean_depth_m));
+        close(
+            under.area_fraction,
+            cure::shell_area_fraction(depth, radius_m) - cure::shell_area_fraction(30e-6, radius_m),
+            1e-9,
+        );
+        close(
+            under.stiffness_fraction,
+            cure::shell_stiffness_fraction(depth, radius_m)
+                - cure::shell_stiffness_fraction(30e-6, radius_m),
+            1e-9,
+        );
+        println!("{radius_m}: {} -> {}", bare.area_fraction, under.area_fraction);
+    }
+    // a skin as deep as the cure leaves nothing
+    let doses = [110.0; 9];
+    let thin = Section {
+        radius_m: 1.5e-3,
+        penetration_m: 300e-6,
+        critical_j_m2: 100.0,
+        doses_j_m2: &doses,
+        inside: Inside::Radial,
+    };
+    assert_eq!(thin.cured_under(50e-6).area_fraction, 0.0);
+    assert!(thin.cured().area_fraction > 0.0);
+    // the closed forms of a strand take it off alike
+    use super::tests_strand::{gel_strand, resin};
+    use super::{Material, Photopolymer, Setting, simulate};
+    let Setting::Photopolymer(bare) = resin().setting else { panic!("a resin") };
+    let skin_m = crate::interval::Interval::new(30e-6, 10e-6, 50e-6);
+    let skinned = Photopolymer { tacky_skin_m: Some(skin_m), ..bare };
+    let skinned = Material { setting: Setting::Photopolymer(skinned), ..resin() };
+    let (bare, under) = (simulate(&gel_strand(), &resin()), simulate(&gel_strand(), &skinned));
+    let radius_m = bare.bead_diameter_m.nominal / 2.0;
+    close(
+        bare.area_fraction.nominal - under.area_fraction.nominal,
+        cure::shell_area_fraction(30e-6, radius_m),
+        1e-9,
+    );
+    assert_eq!(bare.cured_depth_m, under.cured_depth_m);
+    assert!(under.stiffness_fraction.low < bare.stiffness_fraction.low);
+}

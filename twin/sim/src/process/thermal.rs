@@ -92,7 +92,7 @@ pub fn heat(
 }
 
 /// How well the correlations are known at a corner.
-fn spread(corner: Corner) -> f64 {
+pub(super) fn spread(corner: Corner) -> f64 {
     corner.helpful(Interval::new(1.0, 1.0 - CORRELATION_SPREAD, 1.0 + CORRELATION_SPREAD))
 }
 

@@ -37,7 +37,7 @@ pub struct Section<'a> {
 /// How much of a section is cured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cured {
-    /// Share of the area above the critical exposure, 0 to 1.
+    /// Share of the area above the critical exposure that carries, 0 to 1.
     pub area_fraction: f64,
     /// Share of the bending stiffness, about the softest axis through the cured part's own middle, 0 to 1.
     pub stiffness_fraction: f64,
@@ -101,6 +101,14 @@ impl Section<'_> {
     /// 24 × 17 doses each a sum over the azimuths: about 4000 exponentials. Nothing is cured where an input
     /// is not a positive number.
     pub fn cured(&self) -> Cured {
+        self.cured_under(0.0)
+    }
+
+    /// The same where air keeps a skin tacky, m: it counts in the depths and carries nothing.
+    ///
+    /// Source: process-physics.md 1.1 (10–50 µm).
+    pub fn cured_under(&self, skin_m: f64) -> Cured {
+        let carrying = (1.0 - (skin_m / self.radius_m).max(0.0)).max(0.0);
         let good = [self.radius_m, self.penetration_m, self.critical_j_m2];
         if !good.iter().all(|v| *v > 0.0 && v.is_finite()) {
             let nothing = (0.0, 0.0);
@@ -113,14 +121,15 @@ impl Section<'_> {
             };
         }
         // In radii: area, first moments, second moments of what is cured.
-        let (mut area, mut first, mut second) = (0.0, [0.0; 2], [0.0; 3]);
+        let (mut whole, mut area, mut first, mut second) = (0.0, 0.0, [0.0; 2], [0.0; 3]);
         let mut least = 1.0_f64;
         let width = TAU / SPOKES as f64;
         for spoke in 0..SPOKES {
             let angle = width * (spoke as f64 + 0.5);
-            let (pieces, depth) = self.spoke(angle);
+            let (pieces, whole_piece, depth) = self.spoke(angle, carrying);
             least = least.min(depth);
             let (sin, cos) = angle.sin_cos();
+            whole += whole_piece * width;
             area += pieces[0] * width;
             first[0] += pieces[1] * cos * width;
             first[1] += pieces[1] * sin * width;
@@ -129,23 +138,24 @@ impl Section<'_> {
             second[2] += pieces[2] * sin * cos * width;
         }
         let area_fraction = (area / PI).clamp(0.0, 1.0);
+        let whole_fraction = (whole / PI).clamp(0.0, 1.0);
         Cured {
             area_fraction,
             stiffness_fraction: (softest(area, first, second) / (PI / 4.0)).clamp(0.0, 1.0),
             least_depth_m: least * self.radius_m,
-            mean_depth_m: (1.0 - (1.0 - area_fraction).sqrt()) * self.radius_m,
+            mean_depth_m: (1.0 - (1.0 - whole_fraction).sqrt()) * self.radius_m,
             axis_j_m2: self.axis_j_m2(),
         }
     }
 
-    /// The cured pieces of a spoke: `∫ r dr`, `∫ r² dr`, `∫ r³ dr` in radii, and the depth from the surface to
-    /// the first that is not.
-    fn spoke(&self, angle_rad: f64) -> ([f64; 3], f64) {
+    /// The cured pieces of a spoke up to a share of the radius: `∫ r dr`, `∫ r² dr`, `∫ r³ dr` in radii; the first of
+    /// these up to the surface, and the depth from there to the first that is not cured.
+    fn spoke(&self, angle_rad: f64, carrying: f64) -> ([f64; 3], f64, f64) {
         let excess = |ring: usize| {
             let radius_m = self.radius_m * ring as f64 / RINGS as f64;
             (self.dose_j_m2(radius_m, angle_rad) / self.critical_j_m2).ln()
         };
-        let mut pieces = [0.0; 3];
+        let (mut pieces, mut whole) = ([0.0; 3], 0.0);
         let (mut depth, mut open) = (1.0, true);
         let mut outer = excess(RINGS);
         for ring in (0..RINGS).rev() {
@@ -166,6 +176,8 @@ impl Section<'_> {
                 }
             }
             if let Some((from, to)) = cured {
+                whole += (to.powi(2) - from.powi(2)) / 2.0;
+                let (from, to) = (from.min(carrying), to.min(carrying));
                 for (power, sum) in pieces.iter_mut().enumerate() {
                     let n = power as i32 + 2;
                     *sum += (to.powi(n) - from.powi(n)) / f64::from(n);
@@ -173,7 +185,7 @@ impl Section<'_> {
             }
             outer = inner;
         }
-        (pieces, depth)
+        (pieces, whole, depth)
     }
 }
 

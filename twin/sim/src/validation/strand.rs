@@ -29,6 +29,7 @@ pub(super) fn strand(diameter_m: f64, speed_m_s: f64, span_m: f64, jet_m_s: f64)
         swell: Interval::exact(1.0),
         gravity_across_m_s2: GRAVITY_M_S2,
         ends: Ends::BothHeld,
+        mixer_m3: 0.0,
         dwell_s: 0.0,
         air: Air {
             temperature_k: ROOM_K,
