@@ -82,8 +82,8 @@ fn strands(report: &Value) -> Vec<Numbers> {
 }
 
 /// What goes with where a strand begins and how long it is, or with what it touches.
-const OF_THE_CUT: [&str; 6] =
-    ["shortening_m", "bond", "centreline_m", "bead_share", "blobs_m", "ageing"];
+const OF_THE_CUT: [&str; 7] =
+    ["shortening_m", "bond", "reheated", "centreline_m", "bead_share", "blobs_m", "ageing"];
 
 /// The same within a share, but for what begins with one of `but`. Below 1e-12 all is rounding: the
 /// least that is told is a length in metres, and flows stand beside draw ratios and beads.
@@ -241,9 +241,11 @@ fn a_bridge_cut_at_a_post_sags_alike() {
 }
 
 /// Light reaches every place of a rod alike if the lamps travel on past both of its ends: so a cut
-/// leaves dose, depth and set time as they were. The distance goes with the mean speed, which the
-/// arm's ramps lower by less than a thousandth, and the shares of the section are means along the
-/// strand, whose ends are a little brighter.
+/// leaves dose and depth as they were. The distance goes with the mean speed, which the arm's ramps
+/// lower by less than a thousandth, the shares of the section are means along the strand, whose
+/// ends are a little brighter (at the bad end 0.7 %: little of the shell is left under its tacky
+/// skin), and how much the heat of cure hastens it is told of its middle, which
+/// the cut moves (1e-7).
 #[test]
 fn a_cut_changes_no_cure() {
     let folder = scratch("process-cure");
@@ -256,7 +258,8 @@ fn a_cut_changes_no_cure() {
     totals_are_same(&one, &two);
     let (one, two) = (strands(&one), strands(&two));
     assert!(one[0]["uncured_core_m/value"] > Some(1e-4));
-    let means = ["set_distance_m", "area_fraction", "stiffness_fraction"];
+    let means =
+        ["set_distance_m", "set_time_s", "warmest_k", "area_fraction", "stiffness_fraction"];
     for part in &two {
         same(
             &one[0],
@@ -267,7 +270,7 @@ fn a_cut_changes_no_cure() {
         same(
             &one[0],
             part,
-            5e-3,
+            1e-2,
             &[&["length_m", "span_m", "sag_set_m"], &OF_THE_CUT[..]].concat(),
         );
     }

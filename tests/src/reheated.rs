@@ -4,15 +4,16 @@ use serde_json::Value;
 
 use crate::tools::{check, scratch};
 
-/// Two posts and a strand laid over them at a speed and with a wait at its end; the report.
+/// Two posts, grown cold, and a strand laid over them, its axis 1 mm higher, at a speed and with a wait at its end; the
+/// report.
 fn over_posts(folder: &str, cell: &str, material: &str, speed_mm_s: f64, dwell_s: f64) -> Value {
     let folder = scratch(folder);
     let path = folder.join("job.slam");
     let job = format!(
         r#"{{"slam": 1, "name": "over", "cell": "{cell}", "material": "{material}", "strands": [
             {{"id": "left", "points_mm": [[0, 0, 0], [0, 0, 10]], "speed_mm_s": 3}},
-            {{"id": "right", "points_mm": [[12, 0, 0], [12, 0, 10]], "speed_mm_s": 3}},
-            {{"id": "over", "points_mm": [[0, 0, 10], [12, 0, 10]], "speed_mm_s": {speed_mm_s}, "dwell_s": {dwell_s}}}
+            {{"id": "right", "points_mm": [[12, 0, 0], [12, 0, 10]], "speed_mm_s": 3, "dwell_s": 90}},
+            {{"id": "over", "points_mm": [[0, 0, 11], [12, 0, 11]], "speed_mm_s": {speed_mm_s}, "dwell_s": {dwell_s}}}
         ]}}"#
     );
     std::fs::write(&path, job).expect("written");

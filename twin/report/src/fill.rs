@@ -153,6 +153,7 @@ impl Fill<'_> {
             ageing: strands::ageing(self.job, result),
             centreline_m: strands::centreline_m(&self.preflight.deposit.strands[order]),
             uncured_core_m: outcome.uncured_core_m.map(range),
+            warmest_k: result.lit.as_ref().and_then(|lit| lit.warmest_k).map(range),
             area_fraction: range(outcome.area_fraction),
             stiffness_fraction: range(outcome.stiffness_fraction),
             free_strain: range(outcome.free_strain),

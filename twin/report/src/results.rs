@@ -76,6 +76,8 @@ pub struct Strand {
     pub centreline_m: Vec<[f64; 3]>,
     /// Radius left uncured, m; null: not a photopolymer.
     pub uncured_core_m: Option<Range>,
+    /// Warmest it gets by its own heat of cure, K; null: no photopolymer, or that heat is not known.
+    pub warmest_k: Option<Range>,
     /// Share of the area that is solid.
     pub area_fraction: Range,
     /// Share of the bending stiffness that is solid.

@@ -51,6 +51,7 @@ pub(crate) fn strand(id: &str, sag_m: f64) -> Strand {
         },
         centreline_m: vec![[0.0, 0.0, 0.0], [0.06, 0.0, 0.0]],
         uncured_core_m: None,
+        warmest_k: None,
         area_fraction: range(1.0, 1.0, 1.0),
         stiffness_fraction: range(1.0, 1.0, 1.0),
         free_strain: range(0.007, 0.006, 0.008),

@@ -53,12 +53,7 @@ pub(super) fn bonds(
     bonds
 }
 
-fn bond(
-    job: &Job,
-    deposit: &Deposit,
-    contact: &Contact,
-    results: &[StrandResult],
-) -> Bond {
+fn bond(job: &Job, deposit: &Deposit, contact: &Contact, results: &[StrandResult]) -> Bond {
     let [result, earlier] = contact.orders.map(|order| &results[order]);
     let age_s = reheating::age_s(deposit, contact, results);
     let degree = degree(job, result, earlier, age_s, contact.at_m[0]);

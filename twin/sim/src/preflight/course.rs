@@ -133,6 +133,10 @@ fn time_of(strand: &Strand, course: &Course, event: &Event) -> f64 {
     }
 }
 
+/// Below this share of gravity what is across an upright strand is rounding: a shell that has no stiffness at the bad
+/// end would fall over by it.
+const ROUNDING: f64 = 1e-9;
+
 /// Greatest component of gravity across the strand while it is made, and gravity's direction there,
 /// part axes: the bed may turn.
 pub(super) fn gravity_across(course: &Course) -> (f64, Vector) {
@@ -145,5 +149,6 @@ pub(super) fn gravity_across(course: &Course) -> (f64, Vector) {
         }
     }
     let length = worst.1.norm();
-    (worst.0, if length > 0.0 { worst.1 / length } else { Vector::zeros() })
+    let across_m_s2 = if worst.0 > ROUNDING * length { worst.0 } else { 0.0 };
+    (across_m_s2, if length > 0.0 { worst.1 / length } else { Vector::zeros() })
 }

@@ -89,7 +89,8 @@ fn at_contact(
         };
         let start_k = laid.temperature_k(age_s);
         let emissivity = material.emissivity.nominal;
-        let h = |air_m_s| total_h_w_m2k(diameter_m, start_k, air.temperature_k, air_m_s, emissivity);
+        let h =
+            |air_m_s| total_h_w_m2k(diameter_m, start_k, air.temperature_k, air_m_s, emissivity);
         let jet = (air.jet_reach_m() > 0.0 && corner != Corner::Slow).then(|| WarmJet {
             temperature_k: air.temperature_k,
             reach_m: air.jet_reach_m(),

@@ -184,10 +184,15 @@ impl Rules<'_> {
         let share = |needed: f64| if needed > 0.0 { (has / needed).min(2.0) } else { 2.0 };
         let measured = Interval::new(share(needed.nominal), share(needed.low), share(needed.high));
         self.check(Code::P311, at_m, (measured, 1.0), findings, || {
+            let high = if needed.high.is_finite() {
+                format!("{:.2}", needed.high)
+            } else {
+                "without end".to_owned()
+            };
             (
                 format!(
-                    "has `{key}` {has:.2} {unit} where {:.2} {unit} ({:.2} to {:.2}) is needed",
-                    needed.nominal, needed.low, needed.high
+                    "has `{key}` {has:.2} {unit} where {:.2} {unit} ({:.2} to {high}) is needed",
+                    needed.nominal, needed.low
                 ),
                 format!("say `\"{key}\": {:.1}`", needed.nominal.max(0.1)),
             )

@@ -49,7 +49,7 @@ const PINNED: [(&str, &str); 32] = [
     ("BRIDGE-BANDS", "outside"),
     ("CURA-WIREPRINT", "outside"),
     ("DREPP-GRAVITY", "inside"),
-    ("SAG-TABLE", "outside"),
+    ("SAG-TABLE", "inside"),
     ("JETS-2-10", "outside"),
     ("SLAM-EXTRUDER", "inside"),
     ("SWELL-SHAPE", "outside"),
