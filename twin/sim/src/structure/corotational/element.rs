@@ -1,7 +1,7 @@
 //! One co-rotational beam: forces on its ends and their rate, for any displacements and turns.
 //!
-//! The member's axes go with the chord (x) and with the mean of the two ends' y (roll), as in
-//! Battini and Pacoste (2002); in them the beam is the linear one of `beam`, turned at its ends by
+//! The member's axes go with the chord (x) and with the mean of the two ends' turns (roll), in
+//! the manner of Battini and Pacoste (2002) but with y and z alike; in them the beam is the linear one of `beam`, turned at its ends by
 //! their rotation vectors θ, with engineering strain of the bowed axis,
 //! `ε = (l - L)/L + ½ θᵀ H θ`: what a cubic beam sags shortens its chord, so that two parts of a
 //! strut already buckle as they should (without it the error in Euler's load is π²/12 by the square
@@ -9,17 +9,14 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector};
 
-use super::turn::{change_of_moment, rate_of_vector, rotation_vector, spin};
+use super::local::Local;
+use super::turn::{change_of_moment, rate_of_vector, rotation_vector};
 use crate::pose::Vector;
 use crate::structure::beam::{Beam, Matrix12, Vector12};
 use crate::structure::frame::Member;
 
-type Matrix7 = SMatrix<f64, 7, 7>;
-type Vector7 = SVector<f64, 7>;
-type Matrix7x12 = SMatrix<f64, 7, 12>;
-type Matrix12x7 = SMatrix<f64, 12, 7>;
-type Matrix3x12 = SMatrix<f64, 3, 12>;
-type Row6 = SMatrix<f64, 1, 6>;
+pub(super) type Matrix7 = SMatrix<f64, 7, 7>;
+pub(super) type Vector7 = SVector<f64, 7>;
 
 /// A member free of stress: nothing in it depends on the state.
 #[derive(Debug, Clone)]
@@ -53,17 +50,6 @@ pub(super) struct Response {
     pub(super) tangent: Matrix12,
     /// Errors of a force and of a moment that rounding of the state explains.
     pub(super) rounding: [f64; 2],
-}
-
-/// The member in its own axes, and what its rate needs.
-struct Local {
-    length_m: f64,
-    /// Axial force, and moments conjugate to the ends' spins.
-    conjugate: Vector7,
-    /// y of the ends.
-    roll: [Vector; 2],
-    /// Mean of them.
-    mean: Vector,
 }
 
 impl Bar {
@@ -112,11 +98,14 @@ impl Bar {
         // (l² - L²)/(l + L): nothing cancels
         let stretch = (self.along * 2.0 + change).dot(&change) / (length_m + self.length_m);
         let x = now / length_m;
-        let sides = turns.map(|turn| turn * self.axes.column(1));
-        let z = x.cross(&((sides[0] + sides[1]) * 0.5)).normalize();
+        let ends = turns.map(|turn| turn * self.axes);
+        let mean = (ends[0] + ends[1]) * 0.5;
+        // y as near as can be to the ends' y and to their z turned back
+        let z = x.cross(&(mean.column(1) + mean.column(2).cross(&x))).normalize();
         let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+        let local_ends = ends.map(|end| axes.transpose() * end);
 
-        let theta = turns.map(|turn| rotation_vector(&(axes.transpose() * turn * self.axes)));
+        let theta = local_ends.map(|end| rotation_vector(&end));
         let mut wanted = Vector7::zeros();
         wanted[0] = stretch;
         wanted.fixed_rows_mut::<3>(1).copy_from(&theta[0]);
@@ -133,12 +122,10 @@ impl Bar {
             let mut block = spun_rate.fixed_view_mut::<3, 3>(row, row);
             block += change_of_moment(&theta[end], &moment) * rates[end];
         }
-        let roll = sides.map(|side| axes.transpose() * side);
         let local = Local {
             length_m,
             conjugate: to_vector.transpose() * raw,
-            mean: (roll[0] + roll[1]) * 0.5,
-            roll,
+            sides: local_ends.map(|end| [end.column(1).into(), end.column(2).into()]),
         };
         let b = local.b();
         let (force, tangent) = local.forces(&b, &spun_rate);
@@ -198,92 +185,6 @@ fn bow(stiffness: &Matrix7, length_m: f64) -> Matrix7 {
         }
     }
     bow
-}
-
-impl Local {
-    /// Stretch and spins of the ends in the member's axes, by motion of the nodes.
-    fn b(&self) -> Matrix7x12 {
-        let frame = self.spin_of_axes();
-        let mut b = Matrix7x12::zeros();
-        b[(0, 0)] = -1.0;
-        b[(0, 6)] = 1.0;
-        for (row, column) in [(1, 3), (4, 9)] {
-            b.fixed_view_mut::<3, 12>(row, 0).copy_from(&-frame);
-            for axis in 0..3 {
-                b[(row + axis, column + axis)] += 1.0;
-            }
-        }
-        b
-    }
-
-    /// Forces on the ends and their rate in the member's axes:
-    /// `f = Bᵀ p`, `k = (Bᵀ kₐ + ∂Bᵀ p) B - f̃ Gᵀ`.
-    fn forces(&self, b: &Matrix7x12, rate: &Matrix7) -> (Vector12, Matrix12) {
-        let frame = self.spin_of_axes();
-        let force = b.transpose() * self.conjugate;
-        let mut tangent = (b.transpose() * rate + self.change_of_b()) * b;
-        for row in (0..12).step_by(3) {
-            let turned = spin(&Vector::from(force.fixed_rows::<3>(row))) * frame;
-            let mut rows = tangent.fixed_view_mut::<3, 12>(row, 0);
-            rows -= turned;
-        }
-        (force, tangent)
-    }
-
-    /// Gᵀ: the spin of the member's axes. Across, of the chord; along, what keeps the mean y in the
-    /// x-y plane: `ω₁ q_y = ω₂ q_x + Σ (w_x q_iy - w_y q_ix)/2`.
-    fn spin_of_axes(&self) -> Matrix3x12 {
-        let mut frame = Matrix3x12::zeros();
-        let by_length = 1.0 / self.length_m;
-        frame[(1, 2)] = by_length;
-        frame[(1, 8)] = -by_length;
-        frame[(2, 1)] = -by_length;
-        frame[(2, 7)] = by_length;
-        let eta = self.mean.x / self.mean.y;
-        frame[(0, 2)] = eta * by_length;
-        frame[(0, 8)] = -eta * by_length;
-        for (end, column) in [3, 9].into_iter().enumerate() {
-            frame[(0, column)] = 0.5 * self.roll[end].y / self.mean.y;
-            frame[(0, column + 1)] = -0.5 * self.roll[end].x / self.mean.y;
-        }
-        frame
-    }
-
-    /// Rate of `Bᵀ p` for constant p with stretch and the ends' spins.
-    fn change_of_b(&self) -> Matrix12x7 {
-        let sum =
-            Vector::from(self.conjugate.fixed_rows::<3>(1) + self.conjugate.fixed_rows::<3>(4));
-        let (l, q) = (self.length_m, self.mean);
-        let eta = q.x / q.y;
-        let mut change = Matrix12x7::zeros();
-        let across = [sum.z / (l * l), -(sum.y + sum.x * eta) / (l * l)];
-        for (axis, value) in across.into_iter().enumerate() {
-            change[(7 + axis, 0)] = value;
-            change[(1 + axis, 0)] = -value;
-        }
-        // y of an end goes with its spin: δq = w × q; by component, over the six spins
-        let part = |end: usize, axis: usize| {
-            let mut row = Row6::zeros();
-            row.fixed_view_mut::<1, 3>(0, 3 * end).copy_from(&-spin(&self.roll[end]).row(axis));
-            row
-        };
-        let parts = [[part(0, 0), part(0, 1)], [part(1, 0), part(1, 1)]];
-        let [mean_x, mean_y] = [0, 1].map(|axis| (parts[0][axis] + parts[1][axis]) * 0.5);
-        let lift = (mean_x - mean_y * eta) * (sum.x / (l * q.y));
-        let mut add = |row: usize, values: Row6| {
-            let mut place = change.fixed_view_mut::<1, 6>(row, 1);
-            place += values;
-        };
-        add(8, lift);
-        add(2, -lift);
-        for (end, row) in [3, 9].into_iter().enumerate() {
-            let scale = 0.5 * sum.x / q.y;
-            let roll = self.roll[end];
-            add(row, (parts[end][1] - mean_y * (roll.y / q.y)) * -scale);
-            add(row + 1, (parts[end][0] - mean_y * (roll.x / q.y)) * scale);
-        }
-        change
-    }
 }
 
 /// Four vectors, one under the other.

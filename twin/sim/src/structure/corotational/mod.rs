@@ -7,10 +7,12 @@
 //! path branches. Curvature within a member is what a linear beam has: cut members in two or more
 //! with [`subdivided`] (the error falls with the fourth power of their length).
 //!
-//! Moments fixed in space are not conservative in 3-D, and the symmetric half of the tangent is
-//! used: it is Newton's own for forces; with large moments out of plane it converges slower.
+//! Moments fixed in space are not conservative in 3-D. Stability is then judged by the symmetric
+//! half of the tangent, which is on the safe side.
 
 mod element;
+mod lean;
+mod local;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -158,7 +160,7 @@ pub fn nonlinear(
         return Err(SolveError::BadNode { node });
     }
     let system = System::new(frame, supports, load, imperfection)?;
-    let mut walk = Walk { system: &system, options, iterations: 0 };
+    let mut walk = Walk { system: &system, options, first_speed: 0.0, iterations: 0 };
     let Some(start) = walk.begin() else { return Err(SolveError::TooLarge) };
     let mut points = Vec::new();
     let (outcome, spot) = walk.follow(start, |spot| points.push(point(spot, &options.watch)));

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, UnitQuaternion};
 
 use super::element::{Bar, Response};
+use super::lean::{Lean, Leaning};
 use crate::pose::Vector;
 use crate::structure::assembly::{Pattern, indefinite::Signed};
 use crate::structure::beam::{Matrix12, beams};
@@ -21,6 +22,7 @@ pub(super) struct System {
     active: Vec<bool>,
     /// At nodes, six freedoms each.
     dead: Vec<f64>,
+    lean: Lean,
     /// Length that weighs turns against translations, and forces against moments: the mean member.
     scale_m: f64,
 }
@@ -54,6 +56,7 @@ pub(super) struct Balance {
 pub(super) struct Tangent {
     values: Vec<f64>,
     pub(super) signed: Signed,
+    leaning: Option<Leaning>,
 }
 
 impl System {
@@ -83,7 +86,8 @@ impl System {
         let total_m: f64 = beams.iter().map(|beam| beam.length_m).sum();
         let dead = node_forces(count, &load.at_nodes);
         let scale_m = total_m / bars.len().max(1) as f64;
-        let system = Self { frame, bars, pattern, active, dead, scale_m };
+        let lean = Lean::new(&pattern.gather(&dead), &active);
+        let system = Self { lean, frame, bars, pattern, active, dead, scale_m };
         // a motion without stiffness is named as in the linear solution
         let start = system.balance(&system.start());
         system.pattern.factor(&system.assemble(&start.responses), &system.active)?;
@@ -152,23 +156,26 @@ impl System {
     }
 
     fn assemble(&self, responses: &[Response]) -> Vec<f64> {
-        // out of equilibrium the rate of a moment is half its spin off symmetry; that half goes
-        // with the rest at free nodes, so Newton's order is kept
+        // a moment left at a node makes its rate lean by half its spin: with the rest this goes,
+        // and what a load's own moment adds is in `Lean`, so Newton's order is kept
         let even: Vec<Matrix12> =
             responses.iter().map(|one| (one.tangent + one.tangent.transpose()) * 0.5).collect();
         let parts = self.frame.members().iter().zip(&even).map(|(member, k)| (member, k, 1.0));
         self.pattern.assemble(parts, &self.active)
     }
 
-    /// The symmetric tangent, factored; `None` where it is singular to rounding.
-    pub(super) fn tangent(&self, balance: &Balance) -> Option<Tangent> {
+    /// The tangent at a load factor, its symmetric half factored; `None` where that is singular to
+    /// rounding.
+    pub(super) fn tangent(&self, balance: &Balance, factor: f64) -> Option<Tangent> {
         let values = self.assemble(&balance.responses);
         let signed = self.pattern.factor_signed(&values)?;
-        Some(Tangent { values, signed })
+        let solve = |right: &mut [f64]| self.pattern.solve(&signed.factor, right);
+        let leaning = self.lean.ready(factor, self.pattern.freedoms(), solve);
+        Some(Tangent { values, signed, leaning })
     }
 
-    /// Solves with one refinement, as pivots were not interchanged; `None` where that is not
-    /// enough.
+    /// Solves, with refinement where interchanging no pivots has cost digits; `None` where that is
+    /// not enough.
     pub(super) fn solve(&self, tangent: &Tangent, right: &[f64]) -> Option<Vec<f64>> {
         let mut x = right.to_vec();
         self.pattern.solve(&tangent.signed.factor, &mut x);
@@ -178,6 +185,9 @@ impl System {
             let mut gap: Vec<f64> = right.iter().zip(&product).map(|(r, p)| r - p).collect();
             let left = self.force_norm(&gap);
             if left <= 1e-6 * size {
+                if let Some(leaning) = &tangent.leaning {
+                    self.lean.put_in(leaning, &mut x);
+                }
                 return Some(x);
             }
             if !left.is_finite() {

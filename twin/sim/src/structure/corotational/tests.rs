@@ -4,6 +4,7 @@
 
 mod element;
 mod far;
+mod paths;
 mod stable;
 
 use super::{Options, Outcome, Path, nonlinear, subdivided};

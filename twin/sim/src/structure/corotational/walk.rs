@@ -6,11 +6,14 @@ use super::{Options, Outcome};
 /// Newton iterations at one point. Twelve are more than any sound step takes; moments fixed in
 /// space make the tangent inexact, so some more.
 const ITERATIONS: usize = 20;
-/// A step must land within this part of what the tangent foretold; a jump to another branch does not.
-const AGREE: f64 = 0.25;
+/// Cosine of the angle a step may make with the path's direction at its start and at its end: a
+/// quarter right angle and a little. A jump to another branch does not keep to it at both.
+const ALONG: f64 = 0.9;
 /// Largest spin of a node in one iteration, rad.
 const SPIN_RAD: f64 = 1.5;
-/// Halvings of a step before it is given up.
+/// A step shorter than this part of the first is below what the balance resolves.
+const SHORTEST: f64 = 1e-9;
+/// Halvings from the first step to the shortest, and some.
 const HALVINGS: usize = 40;
 
 /// A point of the path in equilibrium.
@@ -46,6 +49,8 @@ struct Landing {
 pub(super) struct Walk<'a> {
     pub(super) system: &'a System,
     pub(super) options: &'a Options,
+    /// Motion of the unloaded frame per unit of factor.
+    pub(super) first_speed: f64,
     /// Newton iterations so far.
     pub(super) iterations: usize,
 }
@@ -66,27 +71,27 @@ pub(super) struct Heading {
     /// The step before, which says which way is on; empty at the start.
     last: Vec<f64>,
     length: f64,
+    shortest: f64,
 }
 
 impl Heading {
     pub(super) fn first() -> Self {
-        Self { last: Vec::new(), length: f64::INFINITY }
+        Self { last: Vec::new(), length: f64::INFINITY, shortest: 0.0 }
     }
 }
 
 impl Walk<'_> {
     /// Equilibrium without load.
-    pub(super) fn begin(&self) -> Option<Spot> {
-        self.spot(self.system.start())
-    }
-
-    fn spot(&self, state: State) -> Option<Spot> {
+    pub(super) fn begin(&mut self) -> Option<Spot> {
+        let state = self.system.start();
         let balance = self.system.balance(&state);
-        self.settled(state, balance)
+        let spot = self.settled(state, balance)?;
+        self.first_speed = self.system.norm(&spot.rate);
+        Some(spot)
     }
 
     fn settled(&self, state: State, balance: Balance) -> Option<Spot> {
-        let tangent = self.system.tangent(&balance)?;
+        let tangent = self.system.tangent(&balance, state.factor)?;
         let rate = self.system.solve(&tangent, &balance.push)?;
         Some(Spot { state, balance, tangent, rate })
     }
@@ -132,6 +137,7 @@ impl Walk<'_> {
         let bold = self.options.step_turn_rad / self.system.reach(&from.rate) * speed;
         if heading.last.is_empty() {
             heading.length = 0.5 * bold;
+            heading.shortest = SHORTEST * bold;
         }
         heading.length = heading.length.min(bold);
         let ahead = if heading.last.is_empty() {
@@ -164,6 +170,9 @@ impl Walk<'_> {
                 }
                 _ => {
                     heading.length = 0.5 * heading.length.min((speed * to_go).abs());
+                    if heading.length < heading.shortest {
+                        break;
+                    }
                 }
             }
         }
@@ -198,16 +207,15 @@ impl Walk<'_> {
         for iterations in 0..=ITERATIONS {
             let balance = system.balance(&state);
             if balance.residual <= self.options.tolerance + 8.0 * balance.rounding {
-                let gap: Vec<f64> = step.iter().zip(foretold).map(|(a, b)| a - b).collect();
-                let agrees = system.norm(&gap) <= AGREE * system.norm(foretold);
-                let spot = agrees.then(|| self.settled(state, balance)).flatten()?;
-                return Some(Landing { spot, step, iterations });
+                let spot = self.settled(state, balance)?;
+                let sound = self.keeps_to_path(from, &spot, &step);
+                return sound.then_some(Landing { spot, step, iterations });
             }
             if iterations == ITERATIONS || !balance.residual.is_finite() {
                 return None;
             }
             self.iterations += 1;
-            let tangent = system.tangent(&balance)?;
+            let tangent = system.tangent(&balance, state.factor)?;
             let mut change = system.solve(&tangent, &balance.rest)?;
             let mut factor = state.factor;
             if along_arc {
@@ -227,6 +235,22 @@ impl Walk<'_> {
             state = system.moved(&state, &change, factor);
         }
         None
+    }
+
+    /// Whether a step goes along the path where it starts and where it ends. At each, a factor of
+    /// 1 weighs as far as the frame moves for it there, or unloaded if that is less: then twice the
+    /// stiffness is 18 degrees off, three times 27, and a limit point is like any other.
+    fn keeps_to_path(&self, from: &Spot, to: &Spot, step: &[f64]) -> bool {
+        let system = self.system;
+        let rise = to.state.factor - from.state.factor;
+        let along = |spot: &Spot| {
+            let squared = system.inner(&spot.rate, &spot.rate);
+            let weight = squared.min(self.first_speed.powi(2));
+            let length = (system.inner(step, step) + weight * rise * rise).sqrt();
+            let speed = (squared + weight).sqrt();
+            (system.inner(step, &spot.rate) + weight * rise).abs() >= ALONG * length * speed
+        };
+        along(from) && along(to)
     }
 
     /// Narrows a step that ends past a critical point: the last sound spot before it, the largest

@@ -68,6 +68,31 @@ fn c18_closed_circle() {
     }
 }
 
+/// The same circle in a plane askew, with nothing to keep it there: the moment, fixed in space,
+/// leaves the tangent without symmetry.
+#[test]
+fn c18_closed_circle_in_space() {
+    let direction = Vector::new(1.0, 2.0, -0.5).normalize();
+    let about = direction.cross(&Vector::new(0.0, 0.3, 1.0)).normalize() * (2.0 * PI);
+    let nodes = vec![Point::origin(), Point::from(direction)];
+    let bar = member([0, 1], section(1e4, 1.0, 1.0), 1.0);
+    let frame = subdivided(&Frame::new(nodes, vec![bar]).unwrap(), 10);
+    let load = pushed(1, [0.0, 0.0, 0.0, about.x, about.y, about.z]);
+    let options = Options { past_critical: true, ..Options::default() };
+    let path = nonlinear(&frame, &[Support::clamped(0)], &load, &[], &options).unwrap();
+    let tip = Vector::from_column_slice(&path.displacement[1][..3]);
+    let gap = (tip + direction).norm();
+    eprintln!(
+        "C18 space: {:?}, at {} {gap:e}, {} iterations, {} points",
+        path.outcome,
+        path.factor,
+        path.iterations,
+        path.points.len()
+    );
+    assert_eq!(path.factor, 1.0);
+    assert!(gap < 1e-6);
+}
+
 /// Bathe and Bolourchi's bend: an eighth of a circle of 100, square 1, pushed out of its plane.
 /// The scatter of the literature is the torsion constant; it is given.
 #[test]
