@@ -24,7 +24,7 @@ pub(super) struct System {
     dead: Vec<f64>,
     lean: Lean,
     /// Length that weighs turns against translations, and forces against moments: the mean member.
-    scale_m: f64,
+    pub(super) scale_m: f64,
 }
 
 /// Where every node is: shifted from its stress-free place, and turned.
@@ -203,11 +203,6 @@ impl System {
     pub(super) fn inner(&self, a: &[f64], b: &[f64]) -> f64 {
         let weigh = |at: usize| if at % 6 < 3 { 1.0 } else { self.scale_m * self.scale_m };
         a.iter().zip(b).enumerate().map(|(at, (a, b))| weigh(at) * a * b).sum()
-    }
-
-    /// Length of a step in the same measure.
-    pub(super) fn norm(&self, step: &[f64]) -> f64 {
-        self.inner(step, step).sqrt()
     }
 
     fn force_norm(&self, forces: &[f64]) -> f64 {

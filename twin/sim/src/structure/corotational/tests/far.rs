@@ -216,8 +216,8 @@ fn forces_balance_on_the_moved_frame() {
     assert!(moment.norm() < 1e-9, "{moment}");
 }
 
-/// A generated frame of 150 struts with two parts each, under its weight and a push: the time is
-/// printed, not judged.
+/// A generated frame of 150 struts with two parts each, under its weight and a push: a light one
+/// costs a few factorisations. The time is printed.
 #[test]
 fn a_frame_of_150_struts() {
     let side = 5usize;
@@ -263,20 +263,20 @@ fn a_frame_of_150_struts() {
     let supports: Vec<Support> = (0..side * side).map(Support::clamped).collect();
     let mut load = pushed(used - 1, [5.0, 3.0, -20.0, 0.0, 0.0, 0.0]);
     load.gravity_m_s2 = [0.0, 0.0, -9.80665];
-    for push in [0.0, 0.1, 1.0, 3.0] {
+    for (push, iterations) in [(0.1, 4), (1.0, 100)] {
         load.at_nodes[0].load = [5.0 * push, 3.0 * push, -20.0 * push, 0.0, 0.0, 0.0];
         let start = std::time::Instant::now();
-        let path = nonlinear(&frame, &supports, &load, &[], &Options::default()).unwrap();
+        let path = path(&frame, &supports, &load, &Options::default());
         let took = start.elapsed();
-        let most = path.displacement.iter().map(|six| Vector::new(six[0], six[1], six[2]).norm());
+        let moved = path.displacement.iter().map(|six| Vector::new(six[0], six[1], six[2]).norm());
         eprintln!(
-            "{} members, push {push}: {:?}, {} points, {} iterations, {took:?}, moved {:e}, residual {:e}",
+            "{} members, push {push}: {} points, {} iterations, {took:?}, moved {:e}, residual {:e}",
             frame.members().len(),
-            path.outcome,
             path.points.len(),
             path.iterations,
-            most.fold(0.0, f64::max),
+            moved.fold(0.0, f64::max),
             path.residual,
         );
+        assert!(path.iterations <= iterations);
     }
 }

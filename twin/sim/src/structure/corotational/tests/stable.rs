@@ -207,3 +207,28 @@ fn two_elements_see_a_clamped_strut() {
     let Outcome::Branches { factor } = path.outcome else { panic!("{:?}", path.outcome) };
     near(factor, 40.0, 1e-5);
 }
+
+/// A clamped strut that wants to grow does not move until it buckles, at `E A ε = 4 π² E I/L²`: a
+/// path without motion is a path.
+#[test]
+fn a_strut_that_swells_buckles() {
+    let (ea, ei) = (1e3, 2.0);
+    let frame = legs(&[[0.0, 0.0], [1.0, 0.0]], section(ea, ei, ei), 1.0, 8);
+    let swells = frame.members().iter().map(|m| Member { initial_strain: 0.1, ..*m }).collect();
+    let frame = Frame::new(frame.nodes().to_vec(), swells).unwrap();
+    let supports = in_plane(&frame, &[(0, HELD), (1, HELD)]);
+    let load = Load { with_initial_strain: true, ..Load::default() };
+    let critical = 4.0 * std::f64::consts::PI.powi(2) * ei / (ea * 0.1);
+    for until in [0.99 * critical, 3.0] {
+        let options = Options { until, ..Options::default() };
+        let path = nonlinear(&frame, &supports, &load, &[], &options).unwrap();
+        near(-path.local_end_forces[3][6], ea * 0.1 * path.factor, 1e-9);
+        if until < critical {
+            assert_eq!(path.outcome, Outcome::Converged);
+        } else {
+            let Outcome::Branches { factor } = path.outcome else { panic!("{:?}", path.outcome) };
+            eprintln!("swelling: {factor} ({critical})");
+            near(factor, critical, 1e-3);
+        }
+    }
+}
