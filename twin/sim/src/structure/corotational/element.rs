@@ -1,11 +1,11 @@
 //! One co-rotational beam: forces on its ends and their rate, for any displacements and turns.
 //!
 //! The member's axes go with the chord (x) and with the mean of the two ends' turns (roll), in
-//! the manner of Battini and Pacoste (2002) but with y and z alike; in them the beam is the linear one of `beam`, turned at its ends by
-//! their rotation vectors θ, with engineering strain of the bowed axis,
-//! `ε = (l - L)/L + ½ θᵀ H θ`: what a cubic beam sags shortens its chord, so that two parts of a
-//! strut already buckle as they should (without it the error in Euler's load is π²/12 by the square
-//! of the parts per half wave). The rate is exact: to Battini's terms are added those of the roll.
+//! the manner of Battini and Pacoste (2002) but with y and z alike. In them the beam is the linear
+//! one of `beam`, turned at its ends by their rotation vectors θ, with engineering strain of the
+//! bowed axis, `ε = (l - L)/L + θᵀ H θ/2L`: what a cubic beam sags shortens its chord, so that two
+//! parts of a strut already buckle as they should (without it the error in Euler's load is π²/12
+//! by the square of the parts per half wave). The rate is exact, the terms of the roll with it.
 
 use nalgebra::{Matrix3, SMatrix, SVector};
 

@@ -21,18 +21,19 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod turn;
+mod used;
 mod walk;
+
+pub use used::utilisation;
 
 use nalgebra::Matrix3;
 
 use self::element::{Bar, Response, block_turned};
 use self::newton::{Spot, Walk};
 use self::system::System;
-use super::beam::{Beam, Vector12, beams};
+use super::beam::Vector12;
 use super::frame::{Frame, Member, NodeLoad, Support};
 use super::solve::{Load, SolveError, reactions};
-use super::strength::{Cut, Strength, Utilisation, check_strengths, spans, worst};
-use crate::pose::Vector;
 
 /// How far and how fine.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +43,8 @@ pub struct Options {
     /// Largest turn of a node or chord that the tangent may foretell for one step, rad.
     pub step_turn_rad: f64,
     /// Forces left out of balance relative to the forces that meet at nodes. Where those cancel (a
-    /// flat arch carries P by N = P/slope), the factor is known as many times worse.
+    /// flat arch carries P by N = P/slope), the factor is known as many times worse. What rounding
+    /// explains is let pass on top; the path says what is left.
     pub tolerance: f64,
     /// Steps at most.
     pub steps: usize,
@@ -124,7 +126,8 @@ pub struct Path {
 }
 
 /// Every member cut into equal parts; nodes of the frame keep their numbers, new ones follow
-/// member by member. Member m becomes members `m parts .. (m + 1) parts`.
+/// member by member. Member m becomes members `m parts .. (m + 1) parts`. The frame as it is where
+/// a part would have no length.
 pub fn subdivided(frame: &Frame, parts: usize) -> Frame {
     let parts = parts.max(1);
     let mut nodes = frame.nodes().to_vec();
@@ -140,7 +143,6 @@ pub fn subdivided(frame: &Frame, parts: usize) -> Frame {
         }
         members.push(Member { ends: [last, whole.ends[1]], ..*whole });
     }
-    // a part of a member with length has length, unless rounding takes it
     Frame::new(nodes, members).unwrap_or_else(|_| frame.clone())
 }
 
@@ -217,30 +219,4 @@ fn stands(
         iterations: 0,
         points: Vec::new(),
     }
-}
-
-/// The most used member where the path ended; `None` for a frame without members. Forces are
-/// turned back with each member, so the laws are those of the linear solution.
-///
-/// # Errors
-/// [`SolveError::BadMember`] where a strength or a force is missing or not positive.
-pub fn utilisation(
-    frame: &Frame,
-    strengths: &[Strength],
-    path: &Path,
-) -> Result<Option<Utilisation>, SolveError> {
-    check_strengths(frame, strengths)?;
-    let count = frame.members().len();
-    let given = path.local_end_forces.len().min(path.local_line_n_per_m.len());
-    if given != count {
-        return Err(SolveError::BadMember { member: given.min(count) });
-    }
-    let beams = beams(frame);
-    let cut = |((beam, ends), line): ((&Beam, &[f64; 12]), &[f64; 3])| {
-        let turned = block_turned(&Vector12::from(*ends), &beam.axes);
-        Cut::new(turned.as_slice(), beam.axes * Vector::from(*line))
-    };
-    let cuts: Vec<Cut> =
-        beams.iter().zip(&path.local_end_forces).zip(&path.local_line_n_per_m).map(cut).collect();
-    Ok(worst(&spans(frame, &beams), &cuts, strengths))
 }

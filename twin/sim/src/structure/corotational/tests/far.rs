@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::utilisation;
 use super::*;
 use crate::structure::{Strength, solve};
 
@@ -171,10 +172,23 @@ fn light_loads_are_linear() {
     let strengths = [strength; 4];
     let linear =
         crate::structure::utilisation(&frame, &strengths, &wanted, load.gravity_m_s2).unwrap();
-    let far = super::super::utilisation(&frame, &strengths, &got).unwrap();
+    let far = utilisation(&frame, 1, &strengths, &got).unwrap();
     let (linear, far) = (linear.unwrap(), far.unwrap());
     assert_eq!((linear.member, linear.governs), (far.member, far.governs));
     near(far.value, linear.value, 1e-6);
+    // cut in two, the same: what joins the parts is no bond
+    let (halves, whole) = (subdivided(&frame, 2), got);
+    let got = nonlinear(&halves, &supports, &load, &[], &Options::default()).unwrap();
+    let weak_bond = Strength { bond_fraction: 1e-6, ..strength };
+    for (strength, of_whole) in [
+        (strength, far),
+        (weak_bond, utilisation(&frame, 1, &[weak_bond; 4], &whole).unwrap().unwrap()),
+    ] {
+        let far = utilisation(&halves, 2, &[strength; 4], &got).unwrap().unwrap();
+        assert_eq!((of_whole.member, of_whole.governs), (far.member, far.governs));
+        near(far.value, of_whole.value, 1e-6);
+        assert!((far.station_m - of_whole.station_m).abs() < 1e-9);
+    }
 }
 
 /// What holds a bent frame balances what acts on it, about any point of the moved frame.
