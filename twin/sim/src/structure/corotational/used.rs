@@ -25,7 +25,7 @@ pub fn utilisation(
     let count = frame.members().len();
     let given = path.local_end_forces.len().min(path.local_line_n_per_m.len());
     let wholes = count / parts;
-    if given != count || count % parts != 0 || strengths.len() != wholes {
+    if given != count || !count.is_multiple_of(parts) || strengths.len() != wholes {
         return Err(SolveError::BadMember { member: strengths.len().min(wholes) });
     }
     if let Some(member) = strengths.iter().position(|strength| !strength.is_usable()) {
