@@ -4,6 +4,8 @@
 //! `1 · u = 0`, uncoupled. So one symbolic factorisation serves every stage of the same pattern, and
 //! the rows that do take part are never altered: nothing is regularised.
 
+pub(crate) mod indefinite;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{

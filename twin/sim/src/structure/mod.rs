@@ -7,6 +7,7 @@
 
 mod assembly;
 mod beam;
+pub mod corotational;
 mod frame;
 mod ground;
 mod section;

@@ -17,7 +17,7 @@ pub struct Strength {
 }
 
 impl Strength {
-    fn is_usable(&self) -> bool {
+    pub(crate) fn is_usable(&self) -> bool {
         [self.tension_pa, self.compression_pa, self.bond_fraction]
             .iter()
             .all(|number| number.is_finite() && *number > 0.0)

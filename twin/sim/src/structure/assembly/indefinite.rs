@@ -1,0 +1,44 @@
+//! `L D Lᵀ` of a tangent that need not be positive: past a limit point a pivot is negative.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SparseColMatRef;
+use faer::{Par, Side};
+
+use super::{Pattern, pivots};
+
+/// A factor and what its pivots say.
+#[derive(Debug, Clone)]
+pub(crate) struct Signed {
+    pub(crate) factor: Vec<f64>,
+    /// Directions in which the structure would run away: by Sylvester's law the count is the
+    /// matrix's own, whatever the order of elimination.
+    pub(crate) negative: usize,
+}
+
+impl Pattern {
+    /// `L D Lᵀ` with pivots of either sign, not interchanged: sound unless a leading block is
+    /// itself singular, so the caller must look at the residual of what it solves. `None` for an
+    /// exact zero or a number that is not finite.
+    pub(crate) fn factor_signed(&self, values: &[f64]) -> Option<Signed> {
+        let Some(symbolic) = &self.symbolic else {
+            return Some(Signed { factor: Vec::new(), negative: 0 });
+        };
+        let mut factor = vec![0.0; symbolic.len_val()];
+        let request = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut factor,
+                SparseColMatRef::new(self.shape(), values),
+                Side::Lower,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut MemBuffer::new(request)),
+                Default::default(),
+            )
+            .ok()?;
+        let pivots = pivots(symbolic, &factor);
+        let sound = pivots.iter().all(|pivot| pivot.is_finite() && *pivot != 0.0);
+        let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
+        sound.then_some(Signed { factor, negative })
+    }
+}
