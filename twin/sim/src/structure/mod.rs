@@ -7,8 +7,13 @@
 
 mod assembly;
 mod beam;
+mod buckling;
+mod divided;
+mod euler;
 mod frame;
+mod geometric;
 mod ground;
+mod lanczos;
 mod section;
 mod solve;
 mod stages;
@@ -16,6 +21,8 @@ mod strength;
 #[cfg(test)]
 mod tests;
 
+pub use buckling::{BucklingAsk, BucklingError, Mode, buckling};
+pub use euler::{EULER_FLAG, Slender, slender};
 pub use frame::{Frame, FrameFault, Member, NodeLoad, Support};
 pub use section::{Elastic, Section};
 pub use solve::{Load, Solution, SolveError, solve};

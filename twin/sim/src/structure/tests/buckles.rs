@@ -1,0 +1,337 @@
+//! Buckling factors: columns and portals in closed form, frames of two other programs, brute force.
+
+use std::f64::consts::PI;
+
+use super::peers::{numbers, reference};
+use super::*;
+use crate::structure::{
+    BucklingAsk, BucklingError, EULER_FLAG, Mode, SolveError, buckling, slender, solve,
+};
+
+const DOWN: [f64; 3] = [0.0, 0.0, -9.80665];
+
+fn parts(parts: usize) -> BucklingAsk<'static> {
+    BucklingAsk { parts, ..BucklingAsk::default() }
+}
+
+/// A strand of 1 m upright, its E I.
+fn column() -> (Frame, f64) {
+    let frame = chain(Vector::z(), 1.0, 1);
+    let rod = frame.members()[0];
+    (frame, rod.elastic.e_pa * rod.section.iy_m4)
+}
+
+/// Top of a column: held sideways, or in its turns, or both, or free; it may always sink.
+fn top(sideways: bool, turns: bool) -> Support {
+    Support { node: 1, fixed: [sideways, sideways, false, turns, turns, false] }
+}
+
+/// `P L²/(E I)` of a column of 1 m under 1 N on its top.
+fn euler(ends: [Support; 2], count: usize) -> f64 {
+    let (frame, ei) = column();
+    let load = pushed(1, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    let modes = buckling(&frame, &ends, &load, parts(count)).unwrap();
+    modes[0].factor / ei
+}
+
+/// Turns about z are held so that a pinned column does not spin about itself.
+fn pinned_foot() -> Support {
+    Support { node: 0, fixed: [true, true, true, false, false, true] }
+}
+
+#[test]
+fn b10_euler_columns() {
+    let foot = Support::clamped(0);
+    // printed for two and four parts
+    near(euler([foot, top(true, true)], 2), 40.0, 1e-9);
+    near(euler([foot, top(true, true)], 4), 39.78, 1e-3);
+    near(euler([pinned_foot(), top(true, false)], 2), 9.943_8, 1e-4);
+    // exact, K = 1, 0.5, 0.6992, 2
+    let propped = 4.493_409_457_909_064f64.powi(2);
+    for (name, ends, wanted) in [
+        ("K=1", [pinned_foot(), top(true, false)], PI * PI),
+        ("K=0.5", [foot, top(true, true)], 4.0 * PI * PI),
+        ("K=0.6992", [foot, top(true, false)], propped),
+        ("K=2", [foot, top(false, false)], PI * PI / 4.0),
+    ] {
+        let gaps = [4, 8, 16].map(|count| euler(ends, count) / wanted - 1.0);
+        eprintln!("B10 {name}: {gaps:.6?} too high with 4, 8, 16 parts");
+        // never too low, and of the fourth order
+        assert!(gaps.iter().all(|gap| *gap > 0.0) && gaps[1] < 1e-3);
+        assert!((12.0..20.0).contains(&(gaps[0] / gaps[1])));
+        assert!((12.0..20.0).contains(&(gaps[1] / gaps[2])));
+    }
+    near((PI * PI / propped).sqrt(), 0.6992, 1e-4);
+}
+
+/// Ten elements, whether they are parts of one member or members of their own.
+#[test]
+fn b11_column_under_its_own_weight() {
+    let (frame, ei) = column();
+    let q = frame.members()[0].density_kg_m3 * frame.members()[0].section.area_m2 * 9.80665;
+    let held = clamped([0]);
+    let whole = buckling(&frame, &held, &falling(DOWN), parts(10)).unwrap()[0].factor * q / ei;
+    let cut = chain(Vector::z(), 1.0, 10);
+    let cut = buckling(&cut, &held, &falling(DOWN), parts(1)).unwrap()[0].factor * q / ei;
+    let fine = buckling(&frame, &held, &falling(DOWN), parts(40)).unwrap()[0].factor * q / ei;
+    eprintln!("B11: {whole:.6}, as ten members {cut:.6}, forty parts {fine:.6} (7.8051; 7.8373)");
+    near(whole, 7.8051, 1e-3);
+    near(cut, whole, 1e-9);
+    near(fine, 7.8373, 1e-3);
+}
+
+/// Two columns and a beam of one length and section, 1 m, hardly stretching, held in their plane.
+fn portal(foot: Support) -> (Frame, Vec<Support>, f64) {
+    let round = Section::circle(2e-2);
+    let section = Section { area_m2: 1e3 * round.area_m2, ..round };
+    let nodes = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+    let nodes = nodes.map(|[x, z]| Point::new(x, 0.0, z)).to_vec();
+    let members = [[0, 1], [1, 2], [3, 2]].map(|ends| Member { section, ..rod(ends) });
+    let ei = members[0].elastic.e_pa * section.iy_m4;
+    let in_plane = |node| Support { node, fixed: [false, true, false, true, false, true] };
+    let frame = Frame::new(nodes, members.to_vec()).unwrap();
+    (frame, vec![foot, Support { node: 3, ..foot }, in_plane(1), in_plane(2)], ei)
+}
+
+#[test]
+fn b12_portal_sways() {
+    let pinned = Support { node: 0, fixed: [true, true, true, true, false, true] };
+    for (name, foot, wanted) in
+        [("pinned", pinned, 1.82129), ("fixed", Support::clamped(0), 7.37915)]
+    {
+        let (frame, supports, ei) = portal(foot);
+        let push = |node| NodeLoad { node, load: [0.0, 0.0, -1.0, 0.0, 0.0, 0.0] };
+        let load = Load { at_nodes: vec![push(1), push(2)], ..Load::default() };
+        let mode = &buckling(&frame, &supports, &load, parts(4)).unwrap()[0];
+        eprintln!("B12 {name}: {:.6} ({wanted})", mode.factor / ei);
+        near(mode.factor / ei, wanted, 1e-3);
+        // both corners go the same way
+        near(mode.displacement[1][0], mode.displacement[2][0], 1e-3);
+    }
+}
+
+/// Factors of f050 and f150 that a numpy program and beamfeapy agree on.
+#[test]
+fn random_frames_buckle_as_elsewhere() {
+    for name in ["f050.json", "f150.json"] {
+        let reference = reference(name);
+        let nodal = Load { at_nodes: reference.nodal(), ..Load::default() };
+        for (key, load) in [("nodal_loads_only", nodal), ("selfweight_only", falling(DOWN))] {
+            let mut show = String::new();
+            for count in [1, 2, 4, 8, 16] {
+                let ask = BucklingAsk { modes: 3, ..parts(count) };
+                let modes = buckling(&reference.frame, &reference.supports, &load, ask).unwrap();
+                let wanted = &reference.file["buckling"][format!("{key}_{count}_el_per_strut")];
+                let wanted = numbers(wanted);
+                assert_eq!(modes.len(), wanted.len());
+                let gap = |(mode, wanted): (&Mode, &f64)| (mode.factor / wanted - 1.0).abs();
+                let worst = modes.iter().zip(&wanted).map(gap).fold(0.0, f64::max);
+                let solves: Vec<usize> = modes.iter().map(|mode| mode.solves).collect();
+                show += &format!(" {count}: {worst:.1e} {solves:?}");
+                assert!(worst < 1e-6, "{name} {key} {count}: {worst:e}");
+            }
+            eprintln!("{name} {key}, parts: gap [solves]:{show}");
+        }
+    }
+}
+
+/// The same factors from dense matrices, with shear, twist, pulled members and odd supports.
+#[test]
+fn brute_force_agrees() {
+    let reference = reference("f050.json");
+    let ribbon = |at: usize| {
+        Section::ellipse(3e-3, if at.is_multiple_of(2) { 1e-3 } else { 2e-3 }).sheared(0.8)
+    };
+    let members = reference.frame.members().iter().enumerate();
+    let members = members.map(|(at, m)| Member { section: ribbon(at), side: Vector::x(), ..*m });
+    let frame = Frame::new(reference.frame.nodes().to_vec(), members.collect()).unwrap();
+    let load = Load { at_nodes: reference.nodal(), ..falling(DOWN) };
+    for with_twist in [false, true] {
+        let ask = BucklingAsk { modes: 4, with_twist, ..parts(2) };
+        let modes = buckling(&frame, &reference.supports, &load, ask).unwrap();
+        let wanted = dense(&frame, &reference.supports, &load, 2, with_twist);
+        for (mode, wanted) in modes.iter().zip(&wanted) {
+            near(mode.factor, *wanted, 1e-9);
+        }
+    }
+}
+
+/// Every member replaced by shorter ones, K and `K_g` as full matrices.
+fn dense(
+    frame: &Frame,
+    supports: &[Support],
+    load: &Load,
+    count: usize,
+    with_twist: bool,
+) -> Vec<f64> {
+    use crate::structure::beam::{beams, turned};
+    use crate::structure::geometric::under_tension;
+    use nalgebra::{DMatrix, SymmetricEigen};
+    let mut cut = frame.clone();
+    for at in 0..frame.members().len() {
+        for part in 0..count - 1 {
+            let fraction = 1.0 / (count - part) as f64;
+            cut = cut.split(at * count + part, fraction).unwrap().0;
+        }
+    }
+    let solution = solve(&cut, supports, load).unwrap();
+    let size = 6 * cut.nodes().len();
+    let (mut k, mut g) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+    for ((member, beam), ends) in cut.members().iter().zip(beams(&cut)).zip(&solution.end_forces) {
+        let x = beam.axes.column(0);
+        let [first, second] = [0, 6].map(|at| Vector::from_column_slice(&ends[at..at + 3]).dot(&x));
+        let unit = turned(&under_tension(member, beam.length_m, with_twist), &beam.axes);
+        let geometric = unit * (0.5 * (second - first));
+        for (a, b) in (0..12).flat_map(|a| (0..12).map(move |b| (a, b))) {
+            let [row, column] = [a, b].map(|at: usize| 6 * member.ends[at / 6] + at % 6);
+            k[(row, column)] += beam.stiffness[(a, b)];
+            g[(row, column)] -= geometric[(a, b)];
+        }
+    }
+    let held: Vec<usize> = supports.iter().flat_map(|s| (0..6).map(|f| 6 * s.node + f)).collect();
+    let (k, g) = (
+        k.remove_rows_at(&held).remove_columns_at(&held),
+        g.remove_rows_at(&held).remove_columns_at(&held),
+    );
+    let root = k.cholesky().unwrap().l();
+    let half = root.solve_lower_triangular(&g).unwrap();
+    let both = root.solve_lower_triangular(&half.transpose()).unwrap();
+    let symmetric = (&both + both.transpose()) * 0.5;
+    let mut factors: Vec<f64> = SymmetricEigen::new(symmetric)
+        .eigenvalues
+        .iter()
+        .filter(|theta| **theta > 0.0)
+        .map(|theta| 1.0 / theta)
+        .collect();
+    factors.sort_by(f64::total_cmp);
+    factors
+}
+
+/// A round column buckles to either side: the same factor twice, in shapes that are not the same.
+#[test]
+fn equal_factors_come_as_often_as_they_are() {
+    let (frame, _) = column();
+    let load = pushed(1, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    let ask = BucklingAsk { modes: 4, ..parts(4) };
+    let modes = buckling(&frame, &clamped([0]), &load, ask).unwrap();
+    near(modes[1].factor, modes[0].factor, 1e-9);
+    near(modes[3].factor, modes[2].factor, 1e-9);
+    near(modes[2].factor, 9.0 * modes[0].factor, 1e-2);
+    let [a, b] = [0, 1].map(|at: usize| Vector::from_column_slice(&modes[at].displacement[1][..3]));
+    near(a.norm(), 1.0, 1e-9);
+    assert!(a.cross(&b).norm() > 0.9 && modes[0].member == 0 && modes[0].station == 1.0);
+}
+
+#[test]
+fn tension_never_buckles() {
+    let (frame, _) = column();
+    let pulled = pushed(1, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(buckling(&frame, &clamped([0]), &pulled, parts(2)), Ok(Vec::new()));
+    assert_eq!(buckling(&frame, &clamped([0]), &Load::default(), parts(2)), Ok(Vec::new()));
+}
+
+/// Half pulled, half pressed: only the pressed half matters, whichever way.
+#[test]
+fn pushed_in_the_middle() {
+    let frame = chain(Vector::z(), 1.0, 2);
+    let [up, down] = [1.0, -1.0].map(|push| {
+        let load = pushed(1, [0.0, 0.0, push, 0.0, 0.0, 0.0]);
+        buckling(&frame, &clamped([0, 2]), &load, parts(4)).unwrap().remove(0)
+    });
+    near(up.factor, down.factor, 1e-9);
+    assert_eq!((up.member, down.member), (1, 0));
+    assert_eq!(up.region, [1]);
+}
+
+/// A strut between stiff ones buckles on its own: one part does not see it, two do.
+#[test]
+fn a_strut_of_its_own() {
+    let reference = reference("f150.json");
+    let load = Load { at_nodes: reference.nodal(), ..Load::default() };
+    let of = |count| buckling(&reference.frame, &reference.supports, &load, parts(count)).unwrap();
+    let (blind, seen) = (of(1).remove(0), of(2).remove(0));
+    assert!(blind.factor > 6.0 * seen.factor);
+    assert!(seen.region.len() <= 2 && seen.station == 0.5, "{:?}", seen.region);
+    let solution = solve(&reference.frame, &reference.supports, &load).unwrap();
+    let flagged = slender(&reference.frame, &solution, [0.0; 3], 0.0).unwrap();
+    assert_eq!(flagged[0].member, seen.member);
+    // held nearly as firmly as between clamps, where it would be four times the Euler load
+    let of_euler = flagged[0].ratio * seen.factor;
+    assert!((1.0..4.0).contains(&of_euler), "{of_euler}");
+}
+
+/// From the mode of nearly the same load it takes fewer solves, and comes to the same.
+#[test]
+fn a_known_mode_is_a_start() {
+    let reference = reference("f150.json");
+    let load = |scale: f64| {
+        let mut at_nodes = reference.nodal();
+        at_nodes[0].load.iter_mut().for_each(|value| *value *= scale);
+        Load { at_nodes, ..falling(DOWN) }
+    };
+    let run = |load: &Load, near| {
+        let ask = BucklingAsk { near, ..parts(2) };
+        buckling(&reference.frame, &reference.supports, load, ask).unwrap().remove(0)
+    };
+    let before = run(&load(1.0), None);
+    let (cold, warm) = (run(&load(1.02), None), run(&load(1.02), Some(&before)));
+    eprintln!("solves: cold {}, warm {}", cold.solves, warm.solves);
+    near(warm.factor, cold.factor, 1e-9);
+    assert!(warm.solves <= cold.solves);
+    // the second mode given as a start does not hide the first
+    let ask = BucklingAsk { modes: 2, ..parts(2) };
+    let two = buckling(&reference.frame, &reference.supports, &load(1.0), ask).unwrap();
+    near(run(&load(1.0), Some(&two[1])).factor, before.factor, 1e-9);
+    assert_eq!(run(&load(1.0), None), before);
+}
+
+/// Turned as a whole, in other units of load, and cut into members: the same.
+#[test]
+fn factors_do_not_depend_on_how_it_is_put() {
+    let reference = reference("f050.json");
+    let (frame, supports) = (&reference.frame, &reference.supports);
+    let straight = buckling(frame, supports, &falling(DOWN), parts(2)).unwrap().remove(0);
+    let pose = crate::pose::from_xyz_rpy([0.3, -2.0, 0.7], [1.1, -0.4, 2.0]);
+    let nodes = frame.nodes().iter().map(|node| pose * node).collect();
+    let turned = Frame::new(nodes, frame.members().to_vec()).unwrap();
+    let gravity = pose.rotation * Vector::from(DOWN) * 10.0;
+    let load = falling([gravity.x, gravity.y, gravity.z]);
+    let other = buckling(&turned, supports, &load, parts(2)).unwrap().remove(0);
+    near(other.factor * 10.0, straight.factor, 1e-9);
+    assert_eq!((other.member, other.region), (straight.member, straight.region));
+}
+
+/// Four members in a line, free at the top: far gone where the screen still sees nothing.
+#[test]
+fn the_screen_sees_members_not_frames() {
+    let frame = chain(Vector::z(), 1.0, 4);
+    let rod = frame.members()[0];
+    let push = PI * PI * rod.elastic.e_pa * rod.section.iy_m4 / 4.0;
+    let load = pushed(4, [0.0, 0.0, -push, 0.0, 0.0, 0.0]);
+    let held = clamped([0]);
+    near(buckling(&frame, &held, &load, parts(2)).unwrap()[0].factor, 1.0, 1e-4);
+    let solution = solve(&frame, &held, &load).unwrap();
+    assert!(slender(&frame, &solution, [0.0; 3], EULER_FLAG).unwrap().is_empty());
+    let all = slender(&frame, &solution, [0.0; 3], 0.0).unwrap();
+    assert_eq!(all.len(), 4);
+    near(all[0].ratio, 1.0 / 64.0, 1e-9);
+}
+
+#[test]
+fn what_cannot_be_asked() {
+    let (frame, _) = column();
+    let load = pushed(1, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    for count in [0, 65] {
+        let error = buckling(&frame, &clamped([0]), &load, parts(count));
+        assert_eq!(error, Err(BucklingError::Parts { parts: count }));
+    }
+    let floats = Err(BucklingError::Stands(SolveError::Floats { node: 0 }));
+    assert_eq!(buckling(&frame, &[], &load, parts(2)), floats);
+    let swings = buckling(&frame, &[Support::pinned(0)], &load, parts(2));
+    assert!(matches!(swings, Err(BucklingError::Stands(SolveError::Mechanism { .. }))));
+    let none = BucklingAsk { modes: 0, ..parts(2) };
+    assert_eq!(buckling(&frame, &clamped([0]), &load, none), Ok(Vec::new()));
+    // more than there are: a column without inner nodes has two shapes to each side
+    let many = BucklingAsk { modes: 9, ..parts(1) };
+    assert_eq!(buckling(&frame, &clamped([0]), &load, many).unwrap().len(), 4);
+}
