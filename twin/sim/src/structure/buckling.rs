@@ -123,7 +123,7 @@ pub fn buckling(
     let solution = held.solution(load);
     let fixed = fixed_freedoms(frame.nodes().len(), supports);
     let free: Vec<bool> = fixed.iter().flatten().map(|fixed| !fixed).collect();
-    let solve = |forces: &[f64]| held.displacement(forces).0;
+    let solve = |forces: &[f64]| held.displacement(forces);
     let cuts = cuts(frame, &solution, load.gravity_m_s2)?;
     let (members, beams) = (frame.members(), held.beams.as_slice());
     let of = Standing { members, beams, stiffness: &[], cuts: &cuts, free: &free, solve: &solve };

@@ -2,9 +2,9 @@
 //!
 //! A uniform straight member bends the same whole or in parts, so the inner nodes change nothing of
 //! the linear answer and the factor of the undivided frame serves. Inner freedoms `i` follow the
-//! ends `e` by `u_i = K_ii⁻¹ (f_i - K_ie u_e)`: one small dense block per member.
+//! ends `e` by `u_i = K_ii⁻¹ (f_i - K_ie u_e)`, a chain of blocks of six per member.
 
-use nalgebra::{Cholesky, DMatrix, DVector, DVectorViewMut, Dyn, SVector};
+use nalgebra::{Matrix6, Vector6};
 
 use super::beam::{Beam, Matrix12, Vector12, local_stiffness, turned};
 use super::frame::Member;
@@ -39,33 +39,40 @@ struct Divided {
     inner: Option<Inner>,
 }
 
-/// Freedoms of the inner nodes of a member.
+/// The chain of inner nodes of a member, eliminated from its first end on: `S₁ = D`,
+/// `S_k+1 = D - B S_k⁻¹ Bᵀ` with D the stiffness at an inner node and B that from it to the next.
 struct Inner {
-    factor: Cholesky<f64, Dyn>,
-    /// `-K_ii⁻¹ K_ie`: what they do when the ends move.
-    follow: DMatrix<f64>,
+    /// `S_k⁻¹`.
+    inverse: Vec<Matrix6<f64>>,
+    /// B, also from the first end and to the second.
+    beside: Matrix6<f64>,
 }
 
 impl Inner {
-    /// `None` where rounding leaves the block not positive definite.
+    /// `None` where rounding leaves a block not positive definite.
     fn new(part: &Matrix12, parts: usize) -> Option<Self> {
-        let size = 6 * (parts - 1);
-        let mut within = DMatrix::<f64>::zeros(size, size);
-        for inner in 0..parts - 1 {
-            let at = 6 * inner;
-            let both = part.fixed_view::<6, 6>(6, 6) + part.fixed_view::<6, 6>(0, 0);
-            within.fixed_view_mut::<6, 6>(at, at).copy_from(&both);
-            if inner > 0 {
-                within.fixed_view_mut::<6, 6>(at, at - 6).copy_from(&part.fixed_view::<6, 6>(6, 0));
-                within.fixed_view_mut::<6, 6>(at - 6, at).copy_from(&part.fixed_view::<6, 6>(0, 6));
-            }
+        let beside: Matrix6<f64> = part.fixed_view::<6, 6>(6, 0).into_owned();
+        let own: Matrix6<f64> = part.fixed_view::<6, 6>(6, 6) + part.fixed_view::<6, 6>(0, 0);
+        let mut inverse: Vec<Matrix6<f64>> = Vec::with_capacity(parts - 1);
+        while inverse.len() + 1 < parts {
+            let taken =
+                inverse.last().map_or_else(Matrix6::zeros, |s| beside * s * beside.transpose());
+            let schur = own - taken;
+            inverse.push(((schur + schur.transpose()) * 0.5).cholesky()?.inverse());
         }
-        let mut to_ends = DMatrix::<f64>::zeros(size, 12);
-        to_ends.fixed_view_mut::<6, 6>(0, 0).copy_from(&-part.fixed_view::<6, 6>(6, 0));
-        to_ends.fixed_view_mut::<6, 6>(size - 6, 6).copy_from(&-part.fixed_view::<6, 6>(0, 6));
-        let factor = Cholesky::new(within)?;
-        let follow = factor.solve(&to_ends);
-        Some(Self { factor, follow })
+        Some(Self { inverse, beside })
+    }
+
+    /// `K_ii⁻¹` on six numbers per inner node, in place.
+    fn solve(&self, values: &mut [Vector6<f64>]) {
+        for k in 1..values.len() {
+            values[k] -= self.beside * (self.inverse[k - 1] * values[k - 1]);
+        }
+        for k in (0..values.len()).rev() {
+            let above =
+                values.get(k + 1).map_or_else(Vector6::zeros, |next| self.beside.tr_mul(next));
+            values[k] = self.inverse[k] * (values[k] - above);
+        }
     }
 }
 
@@ -73,7 +80,7 @@ impl Inner {
 ///
 /// G is minus the geometric stiffness: positive where compression does work. A vector holds six
 /// freedoms per node of the frame, then six per inner node, member after member. Cost of each
-/// product O(members × parts); of a solve that of the frame plus O(members × parts²).
+/// product O(members × parts); of a solve that of the frame more.
 pub(crate) struct Pencil<'a> {
     members: Vec<Divided>,
     parts: usize,
@@ -183,34 +190,47 @@ impl<'a> Pencil<'a> {
 
     fn part_of(&self, member: &Divided, part: usize, x: &[f64]) -> Vector12 {
         let [a, b] = [self.place(member, part), self.place(member, part + 1)];
-        Vector12::from_fn(|row, _| if row < 6 { x[a + row] } else { x[b + row - 6] })
+        let mut both = Vector12::zeros();
+        both.fixed_rows_mut::<6>(0).copy_from(&six(x, a));
+        both.fixed_rows_mut::<6>(6).copy_from(&six(x, b));
+        both
     }
 
     /// `K⁻¹ f`.
-    pub(crate) fn solve(&self, mut f: Vec<f64>) -> Vec<f64> {
-        let size = 6 * (self.parts - 1);
-        let (at_nodes, within) = f.split_at_mut(self.free.len());
-        for (at, member) in self.members.iter().enumerate() {
+    pub(crate) fn solve(&self, f: &[f64]) -> Vec<f64> {
+        let mut at_nodes = f[..self.free.len()].to_vec();
+        for member in &self.members {
             let Some(inner) = &member.inner else { continue };
-            let load = DVector::from_column_slice(&within[at * size..(at + 1) * size]);
-            let on_ends = inner.follow.tr_mul(&load);
-            for (row, value) in on_ends.iter().enumerate() {
-                at_nodes[6 * member.ends[row / 6] + row % 6] += value;
+            let mut own = self.within(member, f);
+            inner.solve(&mut own);
+            let [first, last] = [own[0], own[own.len() - 1]];
+            let on_ends = [inner.beside.tr_mul(&first), inner.beside * last];
+            for (&node, force) in member.ends.iter().zip(on_ends) {
+                for freedom in 0..6 {
+                    at_nodes[6 * node + freedom] -= force[freedom];
+                }
             }
         }
-        let mut u = (self.solve)(at_nodes);
-        u.extend_from_slice(within);
-        let (at_nodes, within) = u.split_at_mut(self.free.len());
-        for (at, member) in self.members.iter().enumerate() {
+        let mut u = (self.solve)(&at_nodes);
+        u.resize(self.freedoms, 0.0);
+        for member in &self.members {
             let Some(inner) = &member.inner else { continue };
-            let ends =
-                SVector::<f64, 12>::from_fn(|row, _| at_nodes[6 * member.ends[row / 6] + row % 6]);
-            let own = &mut within[at * size..(at + 1) * size];
-            let mut own = DVectorViewMut::from_slice(own, size);
-            inner.factor.solve_mut(&mut own);
-            own += &inner.follow * ends;
+            let mut own = self.within(member, f);
+            let [first, second] = member.ends.map(|node| six(&u, 6 * node));
+            let last = own.len() - 1;
+            own[0] -= inner.beside * first;
+            own[last] -= inner.beside.tr_mul(&second);
+            inner.solve(&mut own);
+            for (k, values) in own.iter().enumerate() {
+                u[member.offset + 6 * k..][..6].copy_from_slice(values.as_slice());
+            }
         }
         u
+    }
+
+    /// What a vector holds for the inner nodes of a member.
+    fn within(&self, member: &Divided, x: &[f64]) -> Vec<Vector6<f64>> {
+        (0..self.parts - 1).map(|k| six(x, member.offset + 6 * k)).collect()
     }
 
     /// Strain energy (twice) of each member in a shape.
@@ -222,4 +242,8 @@ impl<'a> Pencil<'a> {
         let of_member = |member| (0..self.parts).map(|part| of_part(member, part)).sum();
         self.members.iter().map(of_member).collect()
     }
+}
+
+fn six(x: &[f64], at: usize) -> Vector6<f64> {
+    Vector6::from_column_slice(&x[at..at + 6])
 }

@@ -3,7 +3,8 @@
 //! A node has six freedoms in the order x, y, z, turn about x, y, z, in the axes of the part. Two
 //! answers are given for every stage, and they differ: *one-shot* puts all gravity on the frame as
 //! it is so far; *staged* lets each member be born free of stress on the frame as it then stands.
-//! Displacements are small: nothing here sees buckling, contact or a member that slackens.
+//! Displacements are small: nothing here sees contact or a member that slackens, and [`buckling`]
+//! only says by what factor the loads may grow before that is wrong.
 
 mod assembly;
 mod beam;

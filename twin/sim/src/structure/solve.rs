@@ -114,16 +114,21 @@ impl<'a> Held<'a> {
         Ok(Self { frame, supports, beams, pattern, active, values, factor })
     }
 
-    /// Displacements under forces in the freedoms of the frame, and the residual; what acts on held
-    /// freedoms goes into the supports.
-    pub(crate) fn displacement(&self, forces: &[f64]) -> (Vec<f64>, f64) {
-        let right = masked(self.pattern.gather(forces), &self.active);
-        let mut u = right.clone();
+    /// Displacements under forces in the freedoms of the frame; what acts on held freedoms goes into
+    /// the supports.
+    pub(crate) fn displacement(&self, forces: &[f64]) -> Vec<f64> {
+        let mut u = masked(self.pattern.gather(forces), &self.active);
         self.pattern.solve(&self.factor, &mut u);
-        let residual = relative_gap(&self.pattern.multiply(&self.values, &u), &right);
         let mut displacement = vec![0.0; forces.len()];
         self.pattern.scatter_add(&u, &mut displacement);
-        (displacement, residual)
+        displacement
+    }
+
+    /// `‖K u - f‖/‖f‖` over the free freedoms.
+    fn residual(&self, displacement: &[f64], forces: &[f64]) -> f64 {
+        let right = masked(self.pattern.gather(forces), &self.active);
+        let u = self.pattern.gather(displacement);
+        relative_gap(&self.pattern.multiply(&self.values, &u), &right)
     }
 
     /// The answer to a load whose nodes are there.
@@ -133,7 +138,7 @@ impl<'a> Held<'a> {
         for (member, beam) in members.iter().zip(&self.beams) {
             add_ends(&mut f, member, &fixed_load(beam, load));
         }
-        let (displacement, residual) = self.displacement(&f);
+        let displacement = self.displacement(&f);
         let of_member = |(member, beam): (&Member, &Beam)| {
             beam.stiffness * ends_of(&displacement, member) - fixed_load(beam, load)
         };
@@ -142,7 +147,7 @@ impl<'a> Held<'a> {
             reactions: reactions(self.frame, &end_forces, self.supports, &load.at_nodes),
             displacement: by_node(&displacement),
             end_forces: end_forces.iter().map(|forces| (*forces).into()).collect(),
-            residual,
+            residual: self.residual(&displacement, &f),
         }
     }
 }

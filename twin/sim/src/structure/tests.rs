@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
+mod brute_force;
 mod buckles;
 mod closed_forms;
 mod peers;
