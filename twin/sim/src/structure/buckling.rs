@@ -103,8 +103,11 @@ impl From<Stuck> for BucklingError {
 ///
 /// Linear buckling: a perfect frame, elastic, that hardly moves before it gives way. A real one,
 /// bent as printed, carries less; a shallow arch that snaps through carries much less. K_g
-/// is of axial forces alone: no lateral-torsional buckling by bending, none by torque. A factor
-/// comes out too high, never too low, for the parts it is given. N is that of the middle of each part.
+/// is of axial forces alone: no lateral-torsional buckling by bending, none by torque. N is that of
+/// the middle of each part. Where it is the same all along a member a factor comes out too high,
+/// in the fourth order of the length of a part; where the weight of the member itself is what
+/// presses it, too low in the second order (a column under its own weight: 10 % with two parts,
+/// 0.4 % with ten).
 ///
 /// One sparse factorisation, of the undivided frame, serves the solution and 20 to 60 solves per
 /// mode. A frame far more in tension than in compression takes more, or ends in

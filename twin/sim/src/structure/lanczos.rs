@@ -64,7 +64,8 @@ pub(crate) fn largest(
         let worked = pencil.geometric(last);
         diagonal.push(dot(last, &worked));
         next = basis.remainder(pencil, pencil.solve(&worked));
-        let spent = !(next.norm > NOTHING * next.before);
+        let spent =
+            !(next.norm > NOTHING * next.before) || basis.vectors.len() >= pencil.freedoms();
         best.solves = step + 1;
         if spent || step % LOOK == 0 || step + 1 == MOST_SOLVES {
             let Some((theta, weights, widest)) = top(&diagonal, &beside) else { return Err(best) };
@@ -167,13 +168,15 @@ fn top(diagonal: &[f64], beside: &[f64]) -> Option<(f64, Vec<f64>, f64)> {
 
 /// In eight sums side by side: one would wait for itself at every step.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (eights, others) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest = eights.remainder().iter().zip(others.remainder());
     let mut sums = [0.0; 8];
-    for (a, b) in a.chunks(8).zip(b.chunks(8)) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
+    for (a, b) in eights.zip(others) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
         }
     }
-    sums.iter().sum()
+    sums.iter().chain(&[rest.map(|(a, b)| a * b).sum()]).sum()
 }
 
 fn add(to: &mut [f64], factor: f64, other: &[f64]) {

@@ -140,6 +140,23 @@ fn a8_initial_strain() {
     assert!(free.end_forces.iter().flatten().all(|force| force.abs() < 1e-9));
 }
 
+/// A gradient across the section bends a free member by `κ = α ΔT/h`. Members carry no curvature of
+/// their own: it comes as the end moments `E I κ` that would bend them so, taken off their forces.
+#[test]
+fn a8_gradient_as_end_moments() {
+    let (length_m, curvature) = (0.06, 5e-5 * 40.0 / 2e-3);
+    let frame = chain(Vector::x(), length_m, 1);
+    let rod = frame.members()[0];
+    let moment = rod.elastic.e_pa * rod.section.iy_m4 * curvature;
+    let turn = |node, about_y| NodeLoad { node, load: [0.0, 0.0, 0.0, 0.0, about_y, 0.0] };
+    let load = Load { at_nodes: vec![turn(0, moment), turn(1, -moment)], ..Load::default() };
+    let solution = solve(&frame, &clamped([0]), &load).unwrap();
+    near(solution.displacement[1][2], curvature * length_m.powi(2) / 2.0, 1e-10);
+    // nothing left in a member free to bend, and nothing asked of its support
+    assert!((solution.end_forces[0][10] + moment).abs() < 1e-10 * moment);
+    assert!(solution.reactions[0].iter().all(|value| value.abs() < 1e-10 * moment / length_m));
+}
+
 /// Kassimali, Matrix Analysis of Structures, example 8.4 (kip, inch); all printed digits.
 #[test]
 fn a3_kassimali_8_4() {
