@@ -80,11 +80,35 @@ fn dense(
     let both = root.solve_lower_triangular(&half.transpose()).unwrap();
     let symmetric = (&both + both.transpose()) * 0.5;
     let values = SymmetricEigen::new(symmetric).eigenvalues;
-    let least = 1e-9 * values.amax();
+    let least = 1e-12 * values.amax();
     let mut factors: Vec<f64> =
         values.iter().filter(|theta| **theta > least).map(|theta| 1.0 / theta).collect();
     factors.sort_by(f64::total_cmp);
     factors
+}
+
+/// A gate pulled up by its corners, pressed a little by its weight elsewhere: the right
+/// factor however hard it is pulled, or none rather than a wrong one.
+#[test]
+fn pulled_much_harder_than_pressed() {
+    let nodes = [[0.0, 0.0], [0.0, 0.1], [0.1, 0.1], [0.1, 0.0], [0.05, 0.05]];
+    let nodes = nodes.map(|[x, z]| Point::new(x, 0.0, z)).to_vec();
+    let members = [[0, 1], [1, 2], [2, 3], [1, 4], [4, 2]].map(rod).to_vec();
+    let frame = Frame::new(nodes, members).unwrap();
+    let mut refused = 0;
+    for power in 2..9 {
+        let up = [0.0, 0.0, 10f64.powi(power), 0.0, 0.0, 0.0];
+        let at_nodes = [1, 2].map(|node| NodeLoad { node, load: up }).to_vec();
+        let load = Load { at_nodes, ..falling([1.0, 0.0, -9.8]) };
+        match buckling(&frame, &clamped([0, 3]), &load, parts(2)) {
+            Ok(modes) => {
+                near(modes[0].factor, dense(&frame, &clamped([0, 3]), &load, 2, false)[0], 1e-5)
+            }
+            Err(BucklingError::NotConverged { .. }) => refused += 1,
+            Err(error) => panic!("{error}"),
+        }
+    }
+    assert!(refused < 5, "{refused}");
 }
 
 /// A stage by its own pattern, with aged members and nodes yet unborn, is the frame so far.
