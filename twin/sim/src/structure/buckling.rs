@@ -78,6 +78,9 @@ pub enum BucklingError {
         /// The member.
         member: usize,
     },
+    /// Forces in members beyond what a double holds.
+    #[error("forces in members are not finite")]
+    NotFinite,
     /// The iteration did not settle.
     #[error("no buckling factor after {solves} solves; the best, {factor}, is off by {residual:e}")]
     NotConverged {
@@ -139,6 +142,9 @@ pub(crate) fn critical(of: &Standing, ask: BucklingAsk) -> Result<Vec<Mode>, Buc
         return Err(BucklingError::Parts { parts: ask.parts });
     }
     let axial_n = axial(of, ask.parts);
+    if !axial_n.iter().flatten().all(|n| n.is_finite()) {
+        return Err(BucklingError::NotFinite);
+    }
     if axial_n.iter().flatten().all(|&n| n >= 0.0) {
         return Ok(Vec::new());
     }
@@ -166,7 +172,7 @@ fn axial(of: &Standing, parts: usize) -> Vec<Vec<f64>> {
     };
     let mut axial_n: Vec<Vec<f64>> = of.beams.iter().zip(of.cuts).map(of_member).collect();
     let most = axial_n.iter().flatten().fold(0.0f64, |most, n| most.max(n.abs()));
-    for n in axial_n.iter_mut().flatten().filter(|n| n.abs() <= NOTHING * most) {
+    for n in axial_n.iter_mut().flatten().filter(|n| n.abs() < NOTHING * most && most.is_finite()) {
         *n = 0.0;
     }
     axial_n

@@ -17,7 +17,8 @@ use super::frame::Member;
 ///
 /// Exact as far as the shape is: a load factor comes out too high by a part that falls as
 /// `(L/λ)⁴` with λ the length of a half wave (one part per half wave 21.6 %, two 0.75 %, four
-/// 0.05 %); a single part clamped at both ends does not see its own buckling at all.
+/// 0.05 %); a single part clamped at both ends does not see its own buckling at all. What shear adds
+/// to the give falls as `(L/λ)²` only: a part that mostly shears has a straight axis.
 ///
 /// Left out: `N ∫ u'²` along the axis (a part in E/σ), and bending moments, shear forces and
 /// torque: no lateral-torsional buckling of a flat strand bent the stiff way, and no Greenhill

@@ -54,20 +54,23 @@ pub(crate) fn largest(
     let mut basis = Basis::past(found);
     let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
     let mut next = basis.remainder(pencil, pencil.solve(&pencil.geometric(start)));
-    if !(next.norm > NOTHING * next.before) {
+    let mut best = Stuck { theta: 0.0, residual: f64::INFINITY, solves: 1 };
+    if !next.norm.is_finite() {
+        return Err(best);
+    }
+    if next.norm <= NOTHING * next.before {
         return Ok(None);
     }
-    let mut best = Stuck { theta: 0.0, residual: f64::INFINITY, solves: 1 };
     for step in 1..MOST_SOLVES {
         basis.push(next);
         let last = &basis.vectors[basis.vectors.len() - 1];
         let worked = pencil.geometric(last);
         diagonal.push(dot(last, &worked));
         next = basis.remainder(pencil, pencil.solve(&worked));
-        let spent =
-            !(next.norm > NOTHING * next.before) || basis.vectors.len() >= pencil.freedoms();
+        let spent = next.norm <= NOTHING * next.before || basis.vectors.len() >= pencil.freedoms();
         best.solves = step + 1;
         if spent || step % LOOK == 0 || step + 1 == MOST_SOLVES {
+            // where a number is not finite there is no top
             let Some((theta, weights, widest)) = top(&diagonal, &beside) else { return Err(best) };
             if spent && theta <= NOTHING * widest {
                 return Ok(None);
@@ -113,7 +116,9 @@ impl Basis {
             for (other, part) in self.vectors.iter().zip(&parts) {
                 add(&mut vector, -part, other);
             }
-            *norm = (whole - dot(&parts, &parts)).max(0.0).sqrt();
+            let rest = whole - dot(&parts, &parts);
+            // not `max`, which would lose a NaN
+            *norm = if rest < 0.0 { 0.0 } else { rest.sqrt() };
             before = whole.max(before);
         }
         Remainder { vector, norm: norms[1], before: before.sqrt() }
@@ -156,6 +161,9 @@ impl Basis {
 /// Largest eigenvalue of a symmetric tridiagonal matrix, its vector, and the largest magnitude.
 fn top(diagonal: &[f64], beside: &[f64]) -> Option<(f64, Vec<f64>, f64)> {
     let size = diagonal.len();
+    if !diagonal.iter().chain(beside).all(|x| x.is_finite()) {
+        return None;
+    }
     let matrix = DMatrix::from_fn(size, size, |row, column| match row.abs_diff(column) {
         0 => diagonal[row],
         1 => beside[row.min(column)],

@@ -62,6 +62,42 @@ fn b10_euler_columns() {
     near((PI * PI / propped).sqrt(), 0.6992, 1e-4);
 }
 
+/// Engesser: shear gives way too, `1/P = 1/P_E + 1/(κ G A)`; a stocky column, pinned.
+#[test]
+fn shear_lowers_the_factor() {
+    let (nodes, section) = (vec![Point::origin(), Point::new(0.0, 0.0, 1.0)], Section::circle(0.4));
+    let rod = Member { section: section.sheared(0.9), ..rod([0, 1]) };
+    let frame = Frame::new(nodes, vec![rod]).unwrap();
+    let load = pushed(1, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    let ends = [pinned_foot(), top(true, false)];
+    let euler = PI * PI * rod.elastic.e_pa * section.iy_m4;
+    let wanted = 1.0 / (1.0 / euler + 1.0 / (0.9 * rod.elastic.g_pa * section.area_m2));
+    assert!(wanted < 0.8 * euler);
+    let of = |count| buckling(&frame, &ends, &load, parts(count)).unwrap()[0].factor / wanted - 1.0;
+    let [coarse, fine] = [of(16), of(64)];
+    assert!(fine > 0.0 && fine < 1e-4, "{fine:e}");
+    assert!((15.0..17.0).contains(&(coarse / fine)), "second order");
+}
+
+/// A bar that twists easily twists first, at `G J A/(I_y + I_z)` whatever its length.
+#[test]
+fn twist_lowers_the_factor() {
+    let round = Section::circle(0.02);
+    let section = Section { j_m4: 1e-3 * round.j_m4, ..round };
+    let rod = Member { section, ..rod([0, 1]) };
+    let nodes = vec![Point::origin(), Point::new(0.0, 0.0, 0.1)];
+    let frame = Frame::new(nodes, vec![rod]).unwrap();
+    let load = pushed(1, [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]);
+    let wanted = rod.elastic.g_pa * section.j_m4 * section.area_m2 / (2.0 * section.iy_m4);
+    for count in [1, 3] {
+        let ask = BucklingAsk { with_twist: true, ..parts(count) };
+        let mode = &buckling(&frame, &clamped([0]), &load, ask).unwrap()[0];
+        near(mode.factor, wanted, 1e-9);
+        let without = buckling(&frame, &clamped([0]), &load, parts(count)).unwrap()[0].factor;
+        assert!(without > 10.0 * wanted);
+    }
+}
+
 /// Ten elements, whether they are parts of one member or members of their own. The mean force of
 /// each part makes the factor a little low here, in the second order of its length.
 #[test]
@@ -246,6 +282,11 @@ fn what_cannot_be_asked() {
     assert_eq!(buckling(&frame, &[], &load, parts(2)), floats);
     let swings = buckling(&frame, &[Support::pinned(0)], &load, parts(2));
     assert!(matches!(swings, Err(BucklingError::Stands(SolveError::Mechanism { .. }))));
+    // forces beyond what a double holds are no answer, and not "never"
+    let huge = pushed(1, [0.0, 1e300, -1e308, 0.0, 0.0, 0.0]);
+    let lost =
+        buckling(&chain(Vector::new(0.0, 1e-3, 1.0), 1.0, 3), &clamped([0]), &huge, parts(2));
+    assert!(matches!(lost, Err(BucklingError::NotFinite | BucklingError::NotConverged { .. })));
     let none = BucklingAsk { modes: 0, ..parts(2) };
     assert_eq!(buckling(&frame, &clamped([0]), &load, none), Ok(Vec::new()));
     // more than there are: a column without inner nodes has two shapes to each side
