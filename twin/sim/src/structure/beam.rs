@@ -91,7 +91,7 @@ fn member_axes(x: Vector, side: Vector) -> Matrix3<f64> {
 /// With `φ = 12 E I/(κ G A L²)`: `12 E I/((1+φ) L³)`, `6 E I/((1+φ) L²)`, `(4+φ) E I/((1+φ) L)`,
 /// `(2-φ) E I/((1+φ) L)`; axial `E A/L`, torsion `G J/L`. Exact for uniform straight beams loaded at
 /// their nodes.
-fn local_stiffness(member: &Member, length_m: f64) -> Matrix12 {
+pub(crate) fn local_stiffness(member: &Member, length_m: f64) -> Matrix12 {
     let (section, elastic, l) = (member.section, member.elastic, length_m);
     let mut k = Matrix12::zeros();
     couple(&mut k, 0, elastic.e_pa * section.area_m2 / l);
@@ -129,7 +129,7 @@ fn couple(k: &mut Matrix12, freedom: usize, stiffness: f64) {
 }
 
 /// `T k Tᵀ` with T four times the axes on the diagonal, made exactly symmetric.
-fn turned(local: &Matrix12, axes: &Matrix3<f64>) -> Matrix12 {
+pub(crate) fn turned(local: &Matrix12, axes: &Matrix3<f64>) -> Matrix12 {
     let mut k = Matrix12::zeros();
     for row in (0..12).step_by(3) {
         for column in (0..12).step_by(3) {

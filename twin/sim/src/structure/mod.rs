@@ -3,13 +3,19 @@
 //! A node has six freedoms in the order x, y, z, turn about x, y, z, in the axes of the part. Two
 //! answers are given for every stage, and they differ: *one-shot* puts all gravity on the frame as
 //! it is so far; *staged* lets each member be born free of stress on the frame as it then stands.
-//! Displacements are small: nothing here sees buckling, contact or a member that slackens.
+//! Displacements are small: nothing here sees contact or a member that slackens, and [`buckling`]
+//! only says by what factor the loads may grow before that is wrong.
 
 mod assembly;
 mod beam;
+mod buckling;
 pub mod corotational;
+mod divided;
+mod euler;
 mod frame;
+mod geometric;
 mod ground;
+mod lanczos;
 mod section;
 mod solve;
 mod stages;
@@ -17,6 +23,8 @@ mod strength;
 #[cfg(test)]
 mod tests;
 
+pub use buckling::{BucklingAsk, BucklingError, Mode, buckling};
+pub use euler::{EULER_FLAG, Slender, slender};
 pub use frame::{Frame, FrameFault, Member, NodeLoad, Support};
 pub use section::{Elastic, Section};
 pub use solve::{Load, Solution, SolveError, solve};

@@ -83,44 +83,73 @@ impl From<Mechanism> for SolveError {
 /// [`SolveError`]: what floats, what is a mechanism, what is named but not there.
 pub fn solve(frame: &Frame, supports: &[Support], load: &Load) -> Result<Solution, SolveError> {
     check_inputs(frame, supports, &load.at_nodes, load.gravity_m_s2)?;
-    let tie = ground(frame.nodes().len(), frame.members(), supports).tie;
-    if let Some(node) = tie.iter().position(|&tie| tie != Tie::Held) {
-        return Err(SolveError::Floats { node });
-    }
-    let fixed = fixed_freedoms(frame.nodes().len(), supports);
-    let keep: Vec<bool> = fixed.iter().map(|fixed| fixed.contains(&false)).collect();
-    let pattern = Pattern::new(&keep, frame.members()).ok_or(SolveError::TooLarge)?;
-    let beams = beams(frame);
-    let active = active_freedoms(&pattern, &tie, &fixed);
-    let parts = parts(frame.members(), &beams, &[]);
-    let values = pattern.assemble(parts, &active);
-    let factor = pattern.factor(&values, &active)?;
+    Ok(Held::new(frame, supports)?.solution(load))
+}
 
-    let mut f = node_forces(frame.nodes().len(), &load.at_nodes);
-    for (member, beam) in frame.members().iter().zip(&beams) {
-        add_ends(&mut f, member, &fixed_load(beam, load));
-    }
-    let right = masked(pattern.gather(&f), &active);
-    let mut u = right.clone();
-    pattern.solve(&factor, &mut u);
-    let residual = relative_gap(&pattern.multiply(&values, &u), &right);
-    let mut displacement = vec![0.0; f.len()];
-    pattern.scatter_add(&u, &mut displacement);
+/// A frame on its supports, its stiffness factored: good for any load.
+pub(crate) struct Held<'a> {
+    frame: &'a Frame,
+    supports: &'a [Support],
+    pub(crate) beams: Vec<Beam>,
+    pattern: Pattern,
+    active: Vec<bool>,
+    values: Vec<f64>,
+    factor: Vec<f64>,
+}
 
-    let end_forces: Vec<Vector12> = frame
-        .members()
-        .iter()
-        .zip(&beams)
-        .map(|(member, beam)| {
+impl<'a> Held<'a> {
+    /// Supports must name nodes that are there.
+    pub(crate) fn new(frame: &'a Frame, supports: &'a [Support]) -> Result<Self, SolveError> {
+        let tie = ground(frame.nodes().len(), frame.members(), supports).tie;
+        if let Some(node) = tie.iter().position(|&tie| tie != Tie::Held) {
+            return Err(SolveError::Floats { node });
+        }
+        let fixed = fixed_freedoms(frame.nodes().len(), supports);
+        let keep: Vec<bool> = fixed.iter().map(|fixed| fixed.contains(&false)).collect();
+        let pattern = Pattern::new(&keep, frame.members()).ok_or(SolveError::TooLarge)?;
+        let beams = beams(frame);
+        let active = active_freedoms(&pattern, &tie, &fixed);
+        let values = pattern.assemble(parts(frame.members(), &beams, &[]), &active);
+        let factor = pattern.factor(&values, &active)?;
+        Ok(Self { frame, supports, beams, pattern, active, values, factor })
+    }
+
+    /// Displacements under forces in the freedoms of the frame; what acts on held freedoms goes into
+    /// the supports.
+    pub(crate) fn displacement(&self, forces: &[f64]) -> Vec<f64> {
+        let mut u = masked(self.pattern.gather(forces), &self.active);
+        self.pattern.solve(&self.factor, &mut u);
+        let mut displacement = vec![0.0; forces.len()];
+        self.pattern.scatter_add(&u, &mut displacement);
+        displacement
+    }
+
+    /// `‖K u - f‖/‖f‖` over the free freedoms.
+    fn residual(&self, displacement: &[f64], forces: &[f64]) -> f64 {
+        let right = masked(self.pattern.gather(forces), &self.active);
+        let u = self.pattern.gather(displacement);
+        relative_gap(&self.pattern.multiply(&self.values, &u), &right)
+    }
+
+    /// The answer to a load whose nodes are there.
+    pub(crate) fn solution(&self, load: &Load) -> Solution {
+        let members = self.frame.members();
+        let mut f = node_forces(self.frame.nodes().len(), &load.at_nodes);
+        for (member, beam) in members.iter().zip(&self.beams) {
+            add_ends(&mut f, member, &fixed_load(beam, load));
+        }
+        let displacement = self.displacement(&f);
+        let of_member = |(member, beam): (&Member, &Beam)| {
             beam.stiffness * ends_of(&displacement, member) - fixed_load(beam, load)
-        })
-        .collect();
-    Ok(Solution {
-        reactions: reactions(frame, &end_forces, supports, &load.at_nodes),
-        displacement: by_node(&displacement),
-        end_forces: end_forces.iter().map(|forces| (*forces).into()).collect(),
-        residual,
-    })
+        };
+        let end_forces: Vec<Vector12> = members.iter().zip(&self.beams).map(of_member).collect();
+        Solution {
+            reactions: reactions(self.frame, &end_forces, self.supports, &load.at_nodes),
+            displacement: by_node(&displacement),
+            end_forces: end_forces.iter().map(|forces| (*forces).into()).collect(),
+            residual: self.residual(&displacement, &f),
+        }
+    }
 }
 
 fn fixed_load(beam: &Beam, load: &Load) -> Vector12 {

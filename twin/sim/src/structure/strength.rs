@@ -74,10 +74,15 @@ impl Cut {
         }
     }
 
+    /// Axial force at a section, tension positive.
+    pub(crate) fn axial_n(&self, x: &Vector, s: f64) -> f64 {
+        -(self.force_n + self.line_n_per_m * s).dot(x)
+    }
+
     /// Axial force (tension positive), bending moment (vector across) and torque at a section:
     /// `N = -(F + w s)·x`, `M = -M₁ + s x × F + s²/2 x × w`, from equilibrium of the piece before it.
     fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
-        let axial_n = -(self.force_n + self.line_n_per_m * s).dot(x);
+        let axial_n = self.axial_n(x, s);
         let moment = -self.moment_n_m
             + x.cross(&self.force_n) * s
             + x.cross(&self.line_n_per_m) * (s * s / 2.0);
@@ -224,7 +229,12 @@ pub(crate) fn spans<'a>(frame: &'a Frame, beams: &[Beam]) -> Vec<Span<'a>> {
     frame.members().iter().zip(beams).map(of_member).collect()
 }
 
-fn cuts(frame: &Frame, of: &Solution, gravity_m_s2: [f64; 3]) -> Result<Vec<Cut>, SolveError> {
+/// The cuts of a solution, by member.
+pub(crate) fn cuts(
+    frame: &Frame,
+    of: &Solution,
+    gravity_m_s2: [f64; 3],
+) -> Result<Vec<Cut>, SolveError> {
     let count = frame.members().len();
     if of.end_forces.len() != count {
         return Err(SolveError::BadMember { member: of.end_forces.len().min(count) });

@@ -2,10 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
+mod brute_force;
+mod buckles;
 mod closed_forms;
 mod peers;
 mod sequence;
+mod slender_beams;
 mod sound;
+mod wireframes;
 mod yields;
 
 use super::{Elastic, Frame, Load, Member, NodeLoad, Section, Support};

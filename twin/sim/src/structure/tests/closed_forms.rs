@@ -12,7 +12,7 @@ fn across(direction: Vector) -> Vector {
 
 /// A member standing upright is like any other; so is any other.
 #[test]
-fn cantilever_in_every_direction() {
+fn a1_cantilever_in_every_direction() {
     let length_m = 0.06;
     let rod = rod([0, 1]);
     let ei = rod.elastic.e_pa * rod.section.iy_m4;
@@ -81,7 +81,7 @@ fn torsion_and_stretch() {
 }
 
 #[test]
-fn fixed_at_both_ends_and_propped() {
+fn a2_fixed_at_both_ends_and_propped() {
     let length_m = 0.08;
     let frame = chain(Vector::new(1.0, 1.0, 0.0), length_m, 2);
     let rod = frame.members()[0];
@@ -118,7 +118,7 @@ fn load_along_a_member() {
 }
 
 #[test]
-fn initial_strain() {
+fn a8_initial_strain() {
     let shrunk = |mut frame: Frame| {
         let members =
             frame.members().iter().map(|m| Member { initial_strain: -4e-3, ..*m }).collect();
@@ -140,9 +140,26 @@ fn initial_strain() {
     assert!(free.end_forces.iter().flatten().all(|force| force.abs() < 1e-9));
 }
 
+/// A gradient across the section bends a free member by `κ = α ΔT/h`. Members carry no curvature of
+/// their own: it comes as the end moments `E I κ` that would bend them so, taken off their forces.
+#[test]
+fn a8_gradient_as_end_moments() {
+    let (length_m, curvature) = (0.06, 5e-5 * 40.0 / 2e-3);
+    let frame = chain(Vector::x(), length_m, 1);
+    let rod = frame.members()[0];
+    let moment = rod.elastic.e_pa * rod.section.iy_m4 * curvature;
+    let turn = |node, about_y| NodeLoad { node, load: [0.0, 0.0, 0.0, 0.0, about_y, 0.0] };
+    let load = Load { at_nodes: vec![turn(0, moment), turn(1, -moment)], ..Load::default() };
+    let solution = solve(&frame, &clamped([0]), &load).unwrap();
+    near(solution.displacement[1][2], curvature * length_m.powi(2) / 2.0, 1e-10);
+    // nothing left in a member free to bend, and nothing asked of its support
+    assert!((solution.end_forces[0][10] + moment).abs() < 1e-10 * moment);
+    assert!(solution.reactions[0].iter().all(|value| value.abs() < 1e-10 * moment / length_m));
+}
+
 /// Kassimali, Matrix Analysis of Structures, example 8.4 (kip, inch); all printed digits.
 #[test]
-fn kassimali_8_4() {
+fn a3_kassimali_8_4() {
     let section = Section {
         area_m2: 32.9,
         iy_m4: 236.0,
@@ -181,7 +198,7 @@ fn kassimali_8_4() {
 
 /// McGuire, Gallagher, Ziemian, Matrix Structural Analysis, example 5.8 (kN, m).
 #[test]
-fn mcguire_5_8() {
+fn a4_mcguire_5_8() {
     let section = |area_m2, j_m4, i_m4| Section {
         area_m2,
         iy_m4: i_m4,

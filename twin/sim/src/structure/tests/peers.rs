@@ -1,4 +1,4 @@
-//! Frames solved by OpenSees, PyNite and numpy (data/frames), and by pyconmech (data/extrusion).
+//! Frames solved by OpenSees, PyNite and numpy (data/frames).
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ pub(super) fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
-fn indices(value: &Value) -> Vec<usize> {
+pub(super) fn indices(value: &Value) -> Vec<usize> {
     numbers(value).iter().map(|x| *x as usize).collect()
 }
 
@@ -59,7 +59,7 @@ impl Reference {
         Frame::new(self.frame.nodes().to_vec(), members).unwrap()
     }
 
-    fn nodal(&self) -> Vec<NodeLoad> {
+    pub(super) fn nodal(&self) -> Vec<NodeLoad> {
         let each = |load: &Value| {
             let six = numbers(&load["load"]);
             NodeLoad {
@@ -155,78 +155,5 @@ fn random_frames_of_three_solvers() {
         let sheared = reference.with(|_, m| Member { section: m.section.sheared(kappa), ..*m });
         let solution = solve(&sheared, supports, &pushed).unwrap();
         compare(name, "LC5_timoshenko_sw_plus_nodal", &solution, file);
-    }
-}
-
-fn shared(path: &str) -> Option<Value> {
-    let root = std::env::var("TWIN_SHARED")
-        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared").to_owned());
-    let path = PathBuf::from(root).join("data/extrusion").join(path);
-    match std::fs::read(&path) {
-        Ok(bytes) => serde_json::from_slice(&bytes).ok(),
-        Err(error) => {
-            eprintln!("skipped: {}: {error}", path.display());
-            None
-        }
-    }
-}
-
-/// A wireframe of the extrusion literature with the constants its reference states (m, kN).
-fn wireframe(name: &str) -> Option<(Frame, Vec<Support>)> {
-    let file = shared(&format!("frames/{name}.json"))?;
-    assert_eq!(file["unit"], "millimeter");
-    let list = file["node_list"].as_array()?;
-    let xyz = |node: &Value, axis: &str| node["point"][axis].as_f64().unwrap() * 1e-3;
-    let nodes = list.iter().map(|node| Point::new(xyz(node, "X"), xyz(node, "Y"), xyz(node, "Z")));
-    let grounded = (0..list.len()).filter(|&node| list[node]["is_grounded"] == 1);
-    let elastic = Elastic { e_pa: 3.5e9, g_pa: 2.4e9 };
-    let members = file["element_list"].as_array()?.iter().map(|element| {
-        let ends = indices(&element["end_node_ids"]);
-        // weight density 12.2582 kN/m3 under a gravity of 1
-        let density_kg_m3 = 12258.2;
-        Member { density_kg_m3, ..member([ends[0], ends[1]], Section::circle(3e-3), elastic) }
-    });
-    Some((Frame::new(nodes.collect(), members.collect()).unwrap(), clamped(grounded)))
-}
-
-#[test]
-fn wireframes_of_the_literature() {
-    let Some(all) = shared("stiffness_reference.json") else { return };
-    for (name, reference) in all["instances"].as_object().unwrap() {
-        let Some((frame, supports)) = wireframe(name) else { continue };
-        let load = Load { gravity_m_s2: [0.0, 0.0, -1.0], ..Load::default() };
-        let wanted = &reference["full_reference"];
-        if wanted["ok"] != true {
-            eprintln!("{name}: the reference has no solution");
-            continue;
-        }
-        let solution = solve(&frame, &supports, &load).unwrap();
-        let norm = |six: &[f64; 6], from: usize| {
-            Vector::new(six[from], six[from + 1], six[from + 2]).norm()
-        };
-        let most = |from: usize| {
-            solution.displacement.iter().map(|six| norm(six, from)).fold(0.0, f64::max)
-        };
-        let (u, turn) = (most(0), most(3));
-        let gap = |got: f64, key: &str| (got / wanted[key].as_f64().unwrap() - 1.0).abs();
-        let gaps = (gap(u, "max_trans_m"), gap(turn, "max_rot_rad"));
-        let by_node = reference.get("nodal_displacements").map_or(0.0, |nodes| {
-            let wanted: Vec<f64> = (0..frame.nodes().len())
-                .flat_map(|node| numbers(&nodes[node.to_string()]))
-                .collect();
-            let got: Vec<f64> = solution.displacement.iter().flatten().copied().collect();
-            block_gap(&got, &wanted)
-        });
-        let lift: f64 = solution.reactions.iter().map(|six| six[2]).sum();
-        let weight = reference["self_weight_kN"].as_f64().unwrap() * 1e3;
-        eprintln!(
-            "{name}: u {:.1e}, turn {:.1e}, all nodes {by_node:.1e}, weight {:.1e}, residual {:.1e}",
-            gaps.0,
-            gaps.1,
-            (lift / weight - 1.0).abs(),
-            solution.residual
-        );
-        assert!(gaps.0 < 1e-9 && gaps.1 < 1e-9 && by_node < 1e-9);
-        assert!((lift / weight - 1.0).abs() < 1e-9);
     }
 }
