@@ -10,8 +10,11 @@ mod beam;
 mod frame;
 mod ground;
 mod section;
+mod growing;
+mod ldl;
 mod solve;
 mod stages;
+mod standing;
 mod strength;
 #[cfg(test)]
 mod tests;
