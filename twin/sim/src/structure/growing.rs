@@ -21,6 +21,8 @@ pub(crate) struct Growing<'a> {
     count: Vec<usize>,
     /// Whether the factor is that of the matrix.
     whole: bool,
+    /// Whether it was made anew last.
+    made: bool,
 }
 
 impl<'a> Growing<'a> {
@@ -36,6 +38,7 @@ impl<'a> Growing<'a> {
             free: vec![[false; 6]; nodes],
             count: vec![0; nodes],
             whole: true,
+            made: false,
         }
     }
 
@@ -48,6 +51,7 @@ impl<'a> Growing<'a> {
     /// # Errors
     /// A motion without stiffness. The next call starts from nothing.
     pub(crate) fn advance(&mut self, wanted: &[f64], free: &[[bool; 6]]) -> Result<(), Mechanism> {
+        self.made = false;
         let changed: Vec<usize> =
             (0..wanted.len()).filter(|&member| wanted[member] != self.there[member]).collect();
         let cost = |&member: &usize| self.factor.change_cost(self.frame.members()[member].ends);
@@ -165,6 +169,7 @@ impl<'a> Growing<'a> {
             stiffness: &self.beams[member].stiffness,
             factor,
         });
+        self.made = true;
         let done = self.factor.refactor(parts, &self.free);
         self.whole = done.is_ok();
         done.map_err(|Stuck { place, freedom }| Mechanism {
@@ -181,6 +186,12 @@ impl<'a> Growing<'a> {
     /// Freedoms that move now, by node.
     pub(crate) fn free(&self) -> &[[bool; 6]] {
         &self.free
+    }
+
+    /// Whether the last call made the factor anew.
+    #[cfg(test)]
+    pub(crate) fn was_made(&self) -> bool {
+        self.made
     }
 
     /// Numbers in the factor below its diagonal blocks.

@@ -16,8 +16,6 @@ pub(crate) struct Symbolic {
     /// `rows[start[j]..start[j + 1]]`: places below j that column j reaches, ascending.
     pub(super) start: Vec<usize>,
     pub(super) rows: Vec<usize>,
-    /// Blocks of L in the columns on the way from a place to its root: what an update passes.
-    pub(super) path: Vec<usize>,
 }
 
 impl Symbolic {
@@ -63,11 +61,7 @@ impl Symbolic {
             rows.extend_from_slice(column);
             start.push(rows.len());
         }
-        let mut path = vec![0; columns.len()];
-        for j in (0..columns.len()).rev() {
-            path[j] = 1 + columns[j].len() + columns[j].first().map_or(0, |&parent| path[parent]);
-        }
-        Self { node, place, start, rows, path }
+        Self { node, place, start, rows }
     }
 
     /// Places of the system.

@@ -196,11 +196,16 @@ impl Factor {
         self.place(node).is_none_or(|j| self.rank[j] != Rank::New)
     }
 
-    /// Block products of a change at these nodes.
+    /// Block products of a change at these nodes: all the way up, or to a node that is new.
     pub(crate) fn change_cost(&self, ends: [usize; 2]) -> usize {
-        let path = |node: usize| self.place(node).map_or(0, |j| self.symbolic.path[j]);
-        // two products per block, and twelve or so at the pivot
-        2 * path(ends[0]).max(path(ends[1]))
+        let places = ends.map(|node| self.place(node).unwrap_or(NONE));
+        let (mut j, mut blocks) = (places[0].min(places[1]), 0);
+        while j != NONE {
+            blocks += self.symbolic.start[j + 1] - self.symbolic.start[j] + 4;
+            let starts = self.rank[j] == Rank::Absent && places.contains(&j);
+            j = if starts { NONE } else { self.symbolic.parent(j) };
+        }
+        2 * blocks
     }
 
     /// Block products of making the factor anew with these freedoms.
