@@ -183,11 +183,6 @@ impl<'a> Growing<'a> {
         self.factor.solve(right);
     }
 
-    /// Freedoms that move now, by node.
-    pub(crate) fn free(&self) -> &[[bool; 6]] {
-        &self.free
-    }
-
     /// Whether the last call made the factor anew.
     #[cfg(test)]
     pub(crate) fn was_made(&self) -> bool {

@@ -13,7 +13,7 @@ use super::frame::{Frame, NodeLoad, Support};
 use super::ground::{Ground, Tie, ground};
 use super::growing::Growing;
 use super::solve::{SolveError, check_inputs, fixed_freedoms};
-use super::standing::{Moment, Standing};
+use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
 use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
 
 /// Residual, relative to the loads, with which a stage is left.
@@ -104,8 +104,7 @@ pub fn solve_stages(
         spans: &spans,
         ask,
         growing: Growing::new(frame, &beams, &moving(frame, stages), born),
-        one_shot: Standing::new(frame),
-        staged: Standing::new(frame),
+        standing: Standing::new(frame),
         limit: LIMIT,
     };
     Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
@@ -157,8 +156,7 @@ struct Sequence<'a> {
     spans: &'a [Span<'a>],
     ask: Ask<'a>,
     growing: Growing<'a>,
-    one_shot: Standing,
-    staged: Standing,
+    standing: Standing,
     /// [`LIMIT`], or what a factor made from nothing left last.
     limit: f64,
 }
@@ -181,21 +179,20 @@ impl Sequence<'_> {
         for (at, _) in born.iter().enumerate().filter(|(_, m)| tie[m.ends[0]] == Tie::Held) {
             wanted[at] = stage.stiffness_of(at);
         }
-        let moment = Moment { frame: self.frame, beams: self.beams, stage };
-        self.staged.bear(&moment);
+        let moment = Moment { frame: self.frame, beams: self.beams, stage, tie: &tie, free: &free };
+        self.standing.bear(&moment);
         if let Err(Mechanism { node, freedom }) = self.growing.advance(&wanted, &free) {
             record.mechanism = Some((node, freedom));
             return record;
         }
-        self.one_shot.clear();
-        self.one_shot.bear(&moment);
         let residuals = self.settle(&moment);
         let kept = self.ask.keep.contains(&index);
-        let state = |standing: &Standing, residual: f64| {
-            standing.state(&moment, &tie, (self.spans, self.ask.strengths), residual, kept)
+        let state = |side: usize| {
+            let strength = (self.spans, self.ask.strengths);
+            self.standing.state(&moment, side, strength, residuals[side], kept)
         };
-        record.one_shot = Some(state(&self.one_shot, residuals[0]));
-        record.staged = self.ask.staged.then(|| state(&self.staged, residuals[1]));
+        record.one_shot = Some(state(ONE_SHOT));
+        record.staged = self.ask.staged.then(|| state(STAGED));
         record
     }
 
@@ -203,46 +200,22 @@ impl Sequence<'_> {
     ///
     /// Four solves at most: the first, one for what is left, and both again with a new factor.
     fn settle(&mut self, moment: &Moment) -> [f64; 2] {
-        let loads = [
-            self.one_shot.loads(moment, self.growing.free()),
-            if self.ask.staged { self.staged.loads(moment, self.growing.free()) } else { 0.0 },
-        ];
-        let mut step = vec![[0.0; 2]; 6 * self.frame.nodes().len()];
-        self.gaps(moment, &mut step);
+        let (mut step, loads) = self.standing.start(moment);
         let mut residuals = [0.0; 2];
         for solves in 1..=4 {
             self.growing.solve(&mut step);
-            self.one_shot.move_by(moment, &step, 0);
-            if self.ask.staged {
-                self.staged.move_by(moment, &step, 1);
-            }
-            let gaps = self.gaps(moment, &mut step);
-            residuals =
-                std::array::from_fn(|k| if loads[k] > 0.0 { gaps[k] / loads[k] } else { 0.0 });
+            let gaps = self.standing.step(moment, &mut step);
+            residuals = gaps.map(|gap| if loads > 0.0 { gap / loads } else { 0.0 });
             let worst = residuals[0].max(residuals[1]);
-            if worst <= self.limit {
-                break;
-            }
-            if solves == 2 && self.growing.refactor().is_err() {
+            if worst <= self.limit || (solves == 2 && self.growing.refactor().is_err()) {
                 break;
             }
             if solves == 4 {
                 self.limit = 2.0 * worst;
             }
         }
+        self.standing.settle(moment);
         residuals
-    }
-
-    /// Forces out of balance of both answers, and their sizes.
-    fn gaps(&self, moment: &Moment, out: &mut [[f64; 2]]) -> [f64; 2] {
-        out.fill([0.0; 2]);
-        let first = self.one_shot.gap(moment, self.growing.free(), out, 0);
-        let second = if self.ask.staged {
-            self.staged.gap(moment, self.growing.free(), out, 1)
-        } else {
-            0.0
-        };
-        [first, second]
     }
 }
 

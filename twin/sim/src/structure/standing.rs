@@ -1,63 +1,73 @@
-//! How the frame stands: displacements, and what its members carry.
+//! How the frame stands: displacements, and what its members carry. Both answers side by side.
 
 use super::beam::{Beam, Vector12};
-use super::frame::Frame;
+use super::frame::{Frame, Member};
 use super::ground::Tie;
 use super::ldl::Pair;
-use super::solve::{add_ends, by_node, node_forces, reactions};
 use super::stages::{Stage, StageState};
 use super::strength::{Cut, Span, Strength, worst};
 use crate::pose::Vector;
+
+/// One-shot in a [`Pair`].
+pub(super) const ONE_SHOT: usize = 0;
+/// Staged in a [`Pair`].
+pub(super) const STAGED: usize = 1;
 
 /// A stage of a frame.
 pub(super) struct Moment<'a> {
     pub(super) frame: &'a Frame,
     pub(super) beams: &'a [Beam],
     pub(super) stage: &'a Stage,
+    /// By node.
+    pub(super) tie: &'a [Tie],
+    /// By node: freedoms that move.
+    pub(super) free: &'a [[bool; 6]],
 }
 
-/// One of the two answers as it goes from stage to stage.
+impl Moment<'_> {
+    fn born(&self) -> &[Member] {
+        &self.frame.members()[..self.stage.born]
+    }
+}
+
+/// Both answers as they go from stage to stage.
+///
+/// One-shot starts from where it stood: what does not change there is not solved again. Its forces
+/// are taken from its displacements anew, the staged ones grow.
 pub(super) struct Standing {
-    u: Vec<f64>,
+    u: Vec<Pair>,
     /// Elastic force of each member on its nodes, weight not included.
-    elastic: Vec<Vector12>,
-    /// Load each member's initial strain was born with.
-    strain: Vec<Vector12>,
+    elastic: Vec<[Pair; 12]>,
     /// Weight of each member, and the gravity it is for.
     weight: Vec<Vector12>,
     gravity_m_s2: [f64; 3],
-    born: usize,
+    /// Forces out of balance at the end of the last stage that was solved; not a number where a
+    /// freedom was held.
+    rest: Vec<Pair>,
+    /// Forces out of balance now, and at held freedoms what the supports take.
+    gap: Vec<Pair>,
 }
 
 impl Standing {
     pub(super) fn new(frame: &Frame) -> Self {
+        let freedoms = 6 * frame.nodes().len();
         Self {
-            u: vec![0.0; 6 * frame.nodes().len()],
+            u: vec![[0.0; 2]; freedoms],
             elastic: Vec::with_capacity(frame.members().len()),
-            strain: Vec::with_capacity(frame.members().len()),
             weight: Vec::with_capacity(frame.members().len()),
             gravity_m_s2: [0.0; 3],
-            born: 0,
+            rest: vec![[f64::NAN; 2]; freedoms],
+            gap: vec![[0.0; 2]; freedoms],
         }
-    }
-
-    /// As if nothing had been printed yet.
-    pub(super) fn clear(&mut self) {
-        self.u.fill(0.0);
-        self.elastic.clear();
-        self.strain.clear();
-        self.born = 0;
     }
 
     /// Members that are new at this stage come with their initial strain, and the weights turn.
     pub(super) fn bear(&mut self, moment: &Moment) {
         let stage = moment.stage;
-        for member in self.born..stage.born {
+        for member in self.elastic.len()..stage.born {
             let strain = moment.beams[member].strain_load * stage.stiffness_of(member);
-            self.strain.push(strain);
-            self.elastic.push(-strain);
+            self.elastic.push(std::array::from_fn(|row| [-strain[row]; 2]));
         }
-        self.born = stage.born;
         if self.gravity_m_s2 != stage.gravity_m_s2 {
             self.gravity_m_s2 = stage.gravity_m_s2;
             self.weight.clear();
@@ -67,96 +77,205 @@ impl Standing {
         }
     }
 
-    /// Size of all loads on the free freedoms: at nodes, weight and initial strain.
-    pub(super) fn loads(&self, moment: &Moment, free: &[[bool; 6]]) -> f64 {
-        let mut f = node_forces(free.len(), &moment.stage.at_nodes);
-        let members = moment.frame.members()[..self.born].iter();
-        for ((member, weight), strain) in members.zip(&self.weight).zip(&self.strain) {
-            add_ends(&mut f, member, &(weight + strain));
+    /// Right side of the stage's first solve. Nodes whose forces are as the last stage left them
+    /// stay out of it; the size of all loads (at nodes, weight, initial strain) comes with it.
+    pub(super) fn start(&mut self, moment: &Moment) -> (Vec<Pair>, f64) {
+        for (u, free) in self.u.iter_mut().zip(moment.free.iter().flatten()) {
+            if !free {
+                u[ONE_SHOT] = 0.0;
+            }
         }
-        size(&f, free)
+        self.follow(moment, &[]);
+        let mut loads = vec![[0.0; 2]; self.u.len()];
+        add_node_loads(moment.stage, &mut loads);
+        for (at, (member, weight)) in moment.born().iter().zip(&self.weight).enumerate() {
+            let load = weight + moment.beams[at].strain_load * moment.stage.stiffness_of(at);
+            add(&mut loads, member, |row| [load[row]; 2]);
+        }
+        self.measure(moment);
+        let mut right = self.gap.clone();
+        for (right, rest) in right.chunks_exact_mut(6).zip(self.rest.chunks_exact(6)) {
+            if right == rest {
+                right.fill([0.0; 2]);
+            }
+        }
+        (right, norms(&loads, moment.free)[ONE_SHOT])
     }
 
-    /// Puts the forces out of balance into one side of `out`; their size.
-    pub(super) fn gap(
-        &self,
-        moment: &Moment,
-        free: &[[bool; 6]],
-        out: &mut [Pair],
-        side: usize,
-    ) -> f64 {
-        let mut f = node_forces(free.len(), &moment.stage.at_nodes);
-        let members = moment.frame.members()[..self.born].iter();
-        for ((member, weight), elastic) in members.zip(&self.weight).zip(&self.elastic) {
-            add_ends(&mut f, member, &(weight - elastic));
+    /// Moves the nodes by a solution; the forces now out of balance are the next right side.
+    pub(super) fn step(&mut self, moment: &Moment, step: &mut [Pair]) -> Pair {
+        for (u, step) in self.u.iter_mut().zip(step.iter()) {
+            u[ONE_SHOT] += step[ONE_SHOT];
+            u[STAGED] += step[STAGED];
         }
-        for (out, f) in out.iter_mut().zip(&f) {
-            out[side] = *f;
-        }
-        size(&f, free)
+        self.follow(moment, step);
+        let sizes = self.measure(moment);
+        step.copy_from_slice(&self.gap);
+        sizes
     }
 
-    /// Moves the nodes by one side of `step`; the members take it up with the stiffness of now.
-    pub(super) fn move_by(&mut self, moment: &Moment, step: &[Pair], side: usize) {
-        for (u, step) in self.u.iter_mut().zip(step) {
-            *u += step[side];
-        }
-        let members = moment.frame.members()[..self.born].iter().zip(moment.beams);
-        for (at, ((member, beam), elastic)) in members.zip(&mut self.elastic).enumerate() {
-            let stretch =
-                Vector12::from_fn(|row, _| step[6 * member.ends[row / 6] + row % 6][side]);
-            *elastic += beam.stiffness * stretch * moment.stage.stiffness_of(at);
+    /// The stage is solved.
+    pub(super) fn settle(&mut self, moment: &Moment) {
+        let free = moment.free.iter().flatten();
+        for ((rest, gap), free) in self.rest.iter_mut().zip(&self.gap).zip(free) {
+            *rest = if *free { *gap } else { [f64::NAN; 2] };
         }
     }
 
+    /// Members follow their nodes with the stiffness of now: one-shot from the displacements, staged
+    /// by the step alone.
+    ///
+    /// With r from the first end to the second, `F₂ = k₂₂ (u₂ - u₁ - θ₁ × r, θ₂ - θ₁)` and the first
+    /// end carries `-(F₂, M₂ + r × F₂)`: a member that moves as a whole takes no force.
+    fn follow(&mut self, moment: &Moment, step: &[Pair]) {
+        let nodes = moment.frame.nodes();
+        for (at, (member, elastic)) in moment.born().iter().zip(&mut self.elastic).enumerate() {
+            let beam = &moment.beams[at];
+            let factor = moment.stage.stiffness_of(at);
+            let [a, b] = member.ends.map(|node| 6 * node);
+            let r = nodes[member.ends[1]] - nodes[member.ends[0]];
+            let staged = |freedom: usize| step.get(freedom).map_or(0.0, |step| step[STAGED]);
+            let stretch = stretch(&r, |end, k| {
+                let freedom = [a, b][end] + k;
+                [self.u[freedom][ONE_SHOT], staged(freedom)]
+            });
+            let mut far = [[0.0; 2]; 6];
+            for (column, by) in stretch.iter().enumerate() {
+                for (row, far) in far.iter_mut().enumerate() {
+                    let k = factor * beam.stiffness[(6 + row, 6 + column)];
+                    far[ONE_SHOT] += k * by[ONE_SHOT];
+                    far[STAGED] += k * by[STAGED];
+                }
+            }
+            let near = carried(&r, &far);
+            for row in 0..12 {
+                let force = if row < 6 { near[row] } else { far[row - 6] };
+                elastic[row][ONE_SHOT] = force[ONE_SHOT] - factor * beam.strain_load[row];
+                elastic[row][STAGED] += force[STAGED];
+            }
+        }
+    }
+
+    /// Forces out of balance; their sizes over what is free.
+    fn measure(&mut self, moment: &Moment) -> Pair {
+        self.gap.fill([0.0; 2]);
+        add_node_loads(moment.stage, &mut self.gap);
+        for ((member, weight), elastic) in moment.born().iter().zip(&self.weight).zip(&self.elastic)
+        {
+            add(&mut self.gap, member, |row| {
+                [weight[row] - elastic[row][ONE_SHOT], weight[row] - elastic[row][STAGED]]
+            });
+        }
+        norms(&self.gap, moment.free)
+    }
+
+    /// One of the answers as it is reported.
     pub(super) fn state(
         &self,
         moment: &Moment,
-        tie: &[Tie],
+        side: usize,
         (spans, strengths): (&[Span], &[Strength]),
         residual: f64,
         kept: bool,
     ) -> StageState {
         let (mut max_translation_m, mut max_node, mut max_rotation_rad) = (0.0, 0, 0.0f64);
-        for (node, six) in self.u.chunks_exact(6).enumerate() {
+        let of_node = |node: usize| -> [f64; 6] {
+            std::array::from_fn(|freedom| self.u[6 * node + freedom][side])
+        };
+        let count = moment.free.len();
+        for node in 0..count {
+            let six = of_node(node);
             let translation_m = Vector::new(six[0], six[1], six[2]).norm();
             if translation_m > max_translation_m {
                 (max_translation_m, max_node) = (translation_m, node);
             }
             max_rotation_rad = max_rotation_rad.max(Vector::new(six[3], six[4], six[5]).norm());
         }
-        let end_forces: Vec<Vector12> = self
-            .elastic
-            .iter()
-            .zip(&self.weight)
-            .map(|(elastic, weight)| elastic - weight)
-            .collect();
-        let cut = |(member, forces): (usize, &Vector12)| {
-            let held = tie[moment.frame.members()[member].ends[0]] == Tie::Held;
-            let line = moment.beams[member].line_load(moment.stage.gravity_m_s2);
-            let part = if held { 1.0 } else { 0.0 };
-            Cut::new((forces * part).as_slice(), line * part)
+        let utilisation =
+            if spans.is_empty() { None } else { worst(spans, &self.cuts(moment, side), strengths) };
+        let held = |&super::Support { node, fixed }: &super::Support| {
+            let of = |k: usize| if fixed[k] { -self.gap[6 * node + k][side] } else { 0.0 };
+            std::array::from_fn(of)
         };
-        let utilisation = if spans.is_empty() {
-            None
-        } else {
-            let cuts: Vec<Cut> = end_forces.iter().enumerate().map(cut).collect();
-            worst(spans, &cuts, strengths)
-        };
-        let stage = moment.stage;
         StageState {
             max_translation_m,
             max_node,
             max_rotation_rad,
             utilisation,
-            reactions: reactions(moment.frame, &end_forces, &stage.supports, &stage.at_nodes),
+            reactions: moment.stage.supports.iter().map(held).collect(),
             residual,
-            displacement: if kept { by_node(&self.u) } else { Vec::new() },
+            displacement: if kept { (0..count).map(of_node).collect() } else { Vec::new() },
+        }
+    }
+
+    fn cuts(&self, moment: &Moment, side: usize) -> Vec<Cut> {
+        let cut = |(at, member): (usize, &Member)| {
+            let line = moment.beams[at].line_load(moment.stage.gravity_m_s2);
+            let part = if moment.tie[member.ends[0]] == Tie::Held { 1.0 } else { 0.0 };
+            let first: [f64; 6] = std::array::from_fn(|row| {
+                (self.elastic[at][row][side] - self.weight[at][row]) * part
+            });
+            Cut::new(&first, line * part)
+        };
+        moment.born().iter().enumerate().map(cut).collect()
+    }
+}
+
+fn add_node_loads(stage: &Stage, to: &mut [Pair]) {
+    for load in &stage.at_nodes {
+        for (freedom, value) in load.load.iter().enumerate() {
+            to[6 * load.node + freedom].iter_mut().for_each(|to| *to += value);
         }
     }
 }
 
-fn size(f: &[f64], free: &[[bool; 6]]) -> f64 {
-    let free = free.iter().flatten();
-    f.iter().zip(free).filter(|(_, free)| **free).map(|(f, _)| f * f).sum::<f64>().sqrt()
+fn add(to: &mut [Pair], member: &Member, of: impl Fn(usize) -> Pair) {
+    for (end, &node) in member.ends.iter().enumerate() {
+        for (freedom, to) in to[6 * node..6 * node + 6].iter_mut().enumerate() {
+            let force = of(6 * end + freedom);
+            to[ONE_SHOT] += force[ONE_SHOT];
+            to[STAGED] += force[STAGED];
+        }
+    }
+}
+
+/// Motion of the second end as the first sees it.
+fn stretch(r: &Vector, u: impl Fn(usize, usize) -> Pair) -> [Pair; 6] {
+    let first: [Pair; 6] = std::array::from_fn(|k| u(0, k));
+    std::array::from_fn(|k| {
+        let far = u(1, k);
+        std::array::from_fn(|side| {
+            let turn = |axis: usize| first[3 + axis % 3][side];
+            let swung = if k < 3 {
+                turn(k + 1) * r[(k + 2) % 3] - turn(k + 2) * r[(k + 1) % 3]
+            } else {
+                0.0
+            };
+            far[side] - first[k][side] - swung
+        })
+    })
+}
+
+/// Force on the first end that holds the second in balance.
+fn carried(r: &Vector, far: &[Pair; 6]) -> [Pair; 6] {
+    std::array::from_fn(|k| {
+        std::array::from_fn(|side| {
+            let force = |axis: usize| far[axis % 3][side];
+            let lever = if k < 3 {
+                0.0
+            } else {
+                r[(k + 1) % 3] * force(k + 2) - r[(k + 2) % 3] * force(k + 1)
+            };
+            -far[k][side] - lever
+        })
+    })
+}
+
+fn norms(f: &[Pair], free: &[[bool; 6]]) -> Pair {
+    let mut sums = [0.0; 2];
+    for (f, _) in f.iter().zip(free.iter().flatten()).filter(|(_, free)| **free) {
+        sums[ONE_SHOT] += f[ONE_SHOT] * f[ONE_SHOT];
+        sums[STAGED] += f[STAGED] * f[STAGED];
+    }
+    sums.map(f64::sqrt)
 }

@@ -1,7 +1,7 @@
 //! The numbers of the factor, and how they are made from nothing.
 
 use super::block::{
-    Block, ONE, ZERO, add_product, cholesky, forward, negated, product, transposed,
+    Block, ONE, ZERO, add_product, backward, cholesky, forward, negated, transposed,
 };
 use super::symbolic::{NONE, Symbolic};
 use crate::structure::beam::Matrix12;
@@ -101,10 +101,12 @@ impl Factor {
         parts: impl Iterator<Item = Part<'a>>,
         free: &[[bool; 6]],
     ) -> Result<(), Stuck> {
-        self.l.fill(ZERO);
         self.d.fill(ZERO);
         self.diagonal.fill([0.0; 6]);
         for j in 0..self.symbolic.len() {
+            if self.takes_part(j) {
+                self.l[self.symbolic.start[j]..self.symbolic.start[j + 1]].fill(ZERO);
+            }
             self.free[j] = free[self.symbolic.node[j]];
             let moves = self.free[j].contains(&true);
             self.rank[j] = if moves { Rank::Alive } else { Rank::Absent };
@@ -149,23 +151,23 @@ impl Factor {
 
     /// Column j, complete but for its own pivot, and what it takes from the columns above.
     fn eliminate(&mut self, j: usize) -> Result<(), Stuck> {
-        if self.rank[j] == Rank::Absent {
+        if !self.takes_part(j) {
             return Ok(());
         }
         let stuck = |freedom| Stuck { place: j, freedom };
         self.c[j] = cholesky(&self.d[j], &self.floor(j)).map_err(stuck)?;
         let span = self.symbolic.start[j]..self.symbolic.start[j + 1];
         for at in span.clone() {
-            // L = A D⁻¹
-            self.l[at] = transposed(&self.solved_by_pivot(j, &transposed(&self.l[at])));
-        }
-        for at in span.clone() {
             let a = self.symbolic.rows[at];
-            if self.rank[a] == Rank::Absent {
+            if !self.takes_part(a) {
                 continue;
             }
-            let take = negated(&product(&self.d[j], &transposed(&self.l[at])));
-            add_product(&mut self.d[a], &self.l[at], &take);
+            // the blocks still below are of L D, those before are of L by now
+            let minus_at = negated(&transposed(&self.l[at]));
+            let minus_lt = self.solved_by_pivot(j, &minus_at);
+            self.l[at] = negated(&transposed(&minus_lt));
+            add_product(&mut self.d[a], &self.l[at], &minus_at);
+            let (here, above) = self.l.split_at_mut(span.end);
             let mut target = self.symbolic.start[a];
             for below in at + 1..span.end {
                 let b = self.symbolic.rows[below];
@@ -175,15 +177,19 @@ impl Factor {
                 while self.symbolic.rows[target] < b {
                     target += 1;
                 }
-                let from = self.l[below];
-                add_product(&mut self.l[target], &from, &take);
+                add_product(&mut above[target - span.end], &here[below], &minus_lt);
             }
         }
         Ok(())
     }
 
+    /// Whether a place has equations of its own now.
+    pub(super) fn takes_part(&self, j: usize) -> bool {
+        self.rank[j] != Rank::Absent
+    }
+
     /// `D⁻¹ b` of one node.
     pub(super) fn solved_by_pivot(&self, j: usize, b: &Block) -> Block {
-        super::block::backward(&self.c[j], &forward(&self.c[j], b))
+        backward(&self.c[j], &forward(&self.c[j], b))
     }
 }

@@ -74,6 +74,11 @@ impl Symbolic {
         self.rows.len()
     }
 
+    /// Places that column j reaches.
+    pub(super) fn below(&self, j: usize) -> &[usize] {
+        &self.rows[self.start[j]..self.start[j + 1]]
+    }
+
     /// Next place up the elimination tree.
     pub(super) fn parent(&self, j: usize) -> usize {
         if self.start[j] < self.start[j + 1] { self.rows[self.start[j]] } else { NONE }
@@ -88,9 +93,8 @@ impl Symbolic {
     /// Block products of a whole factorisation of the columns for which `alive` holds.
     pub(super) fn products(&self, alive: impl Fn(usize) -> bool) -> usize {
         let of_column = |j: usize| {
-            let below = self.rows[self.start[j]..self.start[j + 1]].iter();
-            let height = below.filter(|&&b| alive(b)).count() + 1;
-            height * (height + 1) / 2
+            let height = self.below(j).iter().filter(|&&b| alive(b)).count();
+            8 + 4 * height + height * (height + 1) / 2
         };
         (0..self.len()).filter(|&j| alive(j)).map(of_column).sum()
     }

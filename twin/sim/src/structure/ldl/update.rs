@@ -201,7 +201,7 @@ impl Factor {
         let places = ends.map(|node| self.place(node).unwrap_or(NONE));
         let (mut j, mut blocks) = (places[0].min(places[1]), 0);
         while j != NONE {
-            blocks += self.symbolic.start[j + 1] - self.symbolic.start[j] + 4;
+            blocks += self.symbolic.below(j).iter().filter(|&&b| self.takes_part(b)).count() + 6;
             let starts = self.rank[j] == Rank::Absent && places.contains(&j);
             j = if starts { NONE } else { self.symbolic.parent(j) };
         }

@@ -109,7 +109,8 @@ impl Cpu {
 #[test]
 #[ignore = "takes minutes; prints what a print costs"]
 fn what_a_print_costs() {
-    for members in [400, 900, 2500, 5000] {
+    let only = std::env::var("ONLY").ok().and_then(|only| only.parse::<usize>().ok());
+    for members in [400, 900, 2500, 5000].into_iter().filter(|size| only.is_none_or(|o| o == *size)) {
         let (frame, supports) = grown(members, 7);
         let stages = growing(&frame, &supports);
         let start = Cpu::now();
