@@ -5,6 +5,9 @@ use super::beam::Beam;
 use super::frame::Frame;
 use super::ldl::{Factor, Pair, Part, Stuck, Symbolic};
 
+/// Error of a pivot, by what updates did to it, past which the factor is made anew: four digits lost.
+const WORN: f64 = 1e-12;
+
 /// An update that did not come through; the factor has to be made anew.
 struct Halt;
 
@@ -62,7 +65,8 @@ impl<'a> Growing<'a> {
         let updated = self.whole
             && (changed.is_empty() || small())
             && self.only_whole_nodes(wanted, free, &changed)
-            && self.update(wanted, free, &changed).is_ok();
+            && self.update(wanted, free, &changed).is_ok()
+            && self.factor.wear() <= WORN;
         if updated {
             return Ok(());
         }
@@ -181,6 +185,12 @@ impl<'a> Growing<'a> {
     /// Overwrites two right sides, six freedoms per node of the frame, by the solutions.
     pub(crate) fn solve(&self, right: &mut [Pair]) {
         self.factor.solve(right);
+    }
+
+    /// Makes the next call start anew.
+    #[cfg(test)]
+    pub(crate) fn start_from_nothing(&mut self) {
+        self.whole = false;
     }
 
     /// Whether the last call made the factor anew.

@@ -4,6 +4,7 @@ use super::beam::{Beam, Vector12};
 use super::frame::{Frame, Member};
 use super::ground::Tie;
 use super::ldl::Pair;
+use super::solve::{add_ends, node_forces};
 use super::stages::{Stage, StageState};
 use super::strength::{Cut, Span, Strength, worst};
 use crate::pose::Vector;
@@ -41,6 +42,11 @@ pub(super) struct Standing {
     /// Weight of each member, and the gravity it is for.
     weight: Vec<Vector12>,
     gravity_m_s2: [f64; 3],
+    /// Loads of the members, one-shot, by freedom.
+    loads: Vec<f64>,
+    /// What the one-shot forces are for: factors on the stiffness, and what was free.
+    factors: Vec<f64>,
+    free: Vec<[bool; 6]>,
     /// Forces out of balance at the end of the last stage that was solved; not a number where a
     /// freedom was held.
     rest: Vec<Pair>,
@@ -56,6 +62,9 @@ impl Standing {
             elastic: Vec::with_capacity(frame.members().len()),
             weight: Vec::with_capacity(frame.members().len()),
             gravity_m_s2: [0.0; 3],
+            loads: vec![0.0; freedoms],
+            factors: Vec::with_capacity(frame.members().len()),
+            free: vec![[false; 6]; frame.nodes().len()],
             rest: vec![[f64::NAN; 2]; freedoms],
             gap: vec![[0.0; 2]; freedoms],
         }
@@ -69,6 +78,8 @@ impl Standing {
             self.elastic.push(std::array::from_fn(|row| [-strain[row]; 2]));
         }
         if self.gravity_m_s2 != stage.gravity_m_s2 {
+            self.factors.clear();
+            self.loads.fill(0.0);
             self.gravity_m_s2 = stage.gravity_m_s2;
             self.weight.clear();
         }
@@ -80,18 +91,31 @@ impl Standing {
     /// Right side of the stage's first solve. Nodes whose forces are as the last stage left them
     /// stay out of it; the size of all loads (at nodes, weight, initial strain) comes with it.
     pub(super) fn start(&mut self, moment: &Moment) -> (Vec<Pair>, f64) {
-        for (u, free) in self.u.iter_mut().zip(moment.free.iter().flatten()) {
-            if !free {
-                u[ONE_SHOT] = 0.0;
+        let known = self.known(moment);
+        self.factors.truncate(known);
+        if known == 0 {
+            for (u, free) in self.u.iter_mut().zip(moment.free.iter().flatten()) {
+                if !free {
+                    u[ONE_SHOT] = 0.0;
+                }
             }
+            self.loads.fill(0.0);
         }
-        self.follow(moment, &[]);
-        let mut loads = vec![[0.0; 2]; self.u.len()];
-        add_node_loads(moment.stage, &mut loads);
-        for (at, (member, weight)) in moment.born().iter().zip(&self.weight).enumerate() {
-            let load = weight + moment.beams[at].strain_load * moment.stage.stiffness_of(at);
-            add(&mut loads, member, |row| [load[row]; 2]);
+        for (at, member) in moment.born().iter().enumerate().skip(known) {
+            let factor = moment.stage.stiffness_of(at);
+            self.factors.push(factor);
+            add_ends(
+                &mut self.loads,
+                member,
+                &(self.weight[at] + moment.beams[at].strain_load * factor),
+            );
         }
+        self.free.copy_from_slice(moment.free);
+        self.follow(moment, &[], known);
+        let mut loads = node_forces(moment.free.len(), &moment.stage.at_nodes);
+        loads.iter_mut().zip(&self.loads).for_each(|(sum, load)| *sum += load);
+        let loads = loads.iter().zip(moment.free.iter().flatten());
+        let size = loads.filter(|(_, free)| **free).map(|(load, _)| load * load).sum::<f64>();
         self.measure(moment);
         let mut right = self.gap.clone();
         for (right, rest) in right.chunks_exact_mut(6).zip(self.rest.chunks_exact(6)) {
@@ -99,7 +123,19 @@ impl Standing {
                 right.fill([0.0; 2]);
             }
         }
-        (right, norms(&loads, moment.free)[ONE_SHOT])
+        (right, size.sqrt())
+    }
+
+    /// Members of which the one-shot forces need not be taken anew at the start of a stage: all of
+    /// the last one, unless what holds them, their stiffness or gravity is another now.
+    fn known(&self, moment: &Moment) -> usize {
+        let lost = |(now, before): (&[bool; 6], &[bool; 6])| {
+            now.iter().zip(before).any(|(now, before)| *before && !*now)
+        };
+        let another = moment.free.iter().zip(&self.free).any(lost)
+            || self.factors.iter().enumerate().any(|(at, f)| *f != moment.stage.stiffness_of(at));
+        // gravity that turned has left none known
+        if another { 0 } else { self.factors.len() }
     }
 
     /// Moves the nodes by a solution; the forces now out of balance are the next right side.
@@ -108,7 +144,7 @@ impl Standing {
             u[ONE_SHOT] += step[ONE_SHOT];
             u[STAGED] += step[STAGED];
         }
-        self.follow(moment, step);
+        self.follow(moment, step, 0);
         let sizes = self.measure(moment);
         step.copy_from_slice(&self.gap);
         sizes
@@ -122,14 +158,15 @@ impl Standing {
         }
     }
 
-    /// Members follow their nodes with the stiffness of now: one-shot from the displacements, staged
+    /// Members, from one on, follow their nodes with the stiffness of now: one-shot from the displacements, staged
     /// by the step alone.
     ///
     /// With r from the first end to the second, `F₂ = k₂₂ (u₂ - u₁ - θ₁ × r, θ₂ - θ₁)` and the first
     /// end carries `-(F₂, M₂ + r × F₂)`: a member that moves as a whole takes no force.
-    fn follow(&mut self, moment: &Moment, step: &[Pair]) {
+    fn follow(&mut self, moment: &Moment, step: &[Pair], from: usize) {
         let nodes = moment.frame.nodes();
-        for (at, (member, elastic)) in moment.born().iter().zip(&mut self.elastic).enumerate() {
+        let members = moment.born().iter().zip(&mut self.elastic).enumerate().skip(from);
+        for (at, (member, elastic)) in members {
             let beam = &moment.beams[at];
             let factor = moment.stage.stiffness_of(at);
             let [a, b] = member.ends.map(|node| 6 * node);

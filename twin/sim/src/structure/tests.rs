@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod closed_forms;
-mod grows;
+pub(super) mod grows;
 mod peers;
 mod sequence;
 mod sound;

@@ -52,6 +52,10 @@ pub(crate) struct Factor {
     pub(super) free: Vec<[bool; 6]>,
     /// Least pivot, as part of the diagonal of K.
     pub(super) least: f64,
+    /// Bound on the relative error of each pivot, as far as updates made it.
+    pub(super) worn: Vec<f64>,
+    /// Its largest since the factor was made.
+    pub(super) most_worn: f64,
     /// Workspace of updates by place; nothing but zeros between them.
     pub(super) w: Vec<Block>,
 }
@@ -69,8 +73,16 @@ impl Factor {
             rank: vec![Rank::Absent; n],
             free: vec![[false; 6]; n],
             least: least_pivot,
+            worn: vec![0.0; n],
+            most_worn: 0.0,
             w: vec![ZERO; n],
         }
+    }
+
+    /// Bound on the relative error that updates have brought into a pivot: each adds a rounding, and
+    /// one that takes away multiplies what was there by how much the pivot shrinks.
+    pub(crate) fn wear(&self) -> f64 {
+        self.most_worn
     }
 
     pub(crate) fn symbolic(&self) -> &Symbolic {
@@ -102,6 +114,8 @@ impl Factor {
         free: &[[bool; 6]],
     ) -> Result<(), Stuck> {
         self.d.fill(ZERO);
+        self.worn.fill(0.0);
+        self.most_worn = 0.0;
         self.diagonal.fill([0.0; 6]);
         for j in 0..self.symbolic.len() {
             if self.takes_part(j) {

@@ -100,6 +100,9 @@ impl Factor {
         let mut m = ONE;
         add_product(&mut m, &transposed(&t), &t);
         let root = cholesky(&m, &ANY).map_err(stuck)?;
+        let shrinks = if sign < 0.0 { (0..6).map(|k| m[7 * k]).fold(1.0, f64::max) } else { 1.0 };
+        self.worn[j] = (self.worn[j] + f64::EPSILON) * shrinks;
+        self.most_worn = self.most_worn.max(self.worn[j]);
         let g = transposed(&self.solved_by_pivot(j, &transposed(&product(r, &signed))));
         let grown = sign > 0.0 && (0..6).any(|k| m[7 * k] > GROWN);
         if grown {
@@ -153,6 +156,7 @@ impl Factor {
         self.d[j] = product(y, &yt);
         self.c[j] = cholesky(&self.d[j], &self.floor(j)).map_err(stuck)?;
         self.rank[j] = Rank::Alive;
+        self.worn[j] = f64::EPSILON;
         let g = transposed(&self.solved_by_pivot(j, &transposed(&product(r, &yt))));
         for at in self.symbolic.start[j]..self.symbolic.start[j + 1] {
             let b = self.symbolic.rows[at];
