@@ -7,6 +7,7 @@ use crate::structure::assembly::Pattern;
 use crate::structure::beam::beams;
 use crate::structure::ground::{Tie, ground};
 use crate::structure::growing::Growing;
+use crate::structure::ldl::Pair;
 use crate::structure::solve::{add_ends, fixed_freedoms, masked};
 use crate::structure::{Ask, Stage, StageRecord, solve, solve_stages};
 
@@ -88,16 +89,25 @@ fn kept(frame: &Frame, supports: &[Support]) -> Vec<bool> {
     keep
 }
 
-/// Largest difference of two solutions for the same right side, block by block.
-fn apart(one: &Growing, other: &Growing, nodes: usize) -> f64 {
+/// Largest difference of two solutions for the same right side, block by block, and of the second
+/// and one by faer: what the frame makes of rounding.
+fn apart(one: &Growing, other: &Growing, frame: &Frame, (w, free): (&[f64], &[[bool; 6]])) -> Pair {
     let mut chance = Chance(77);
-    let right: Vec<[f64; 2]> = (0..6 * nodes).map(|_| [chance.next() - 0.5, 0.0]).collect();
+    let right: Vec<Pair> = free.concat().iter().map(|_| [chance.next() - 0.5, 0.0]).collect();
     let solved = |growing: &Growing| {
         let mut x = right.clone();
         growing.solve(&mut x);
         x.iter().map(|pair| pair[0]).collect::<Vec<f64>>()
     };
-    block_gap(&solved(one), &solved(other))
+    let (one, other) = (solved(one), solved(other));
+    let pattern = Pattern::new(&vec![true; free.len()], frame.members()).unwrap();
+    let (beams, active) = (beams(frame), free.concat());
+    let parts = frame.members().iter().zip(&beams).zip(w);
+    let values = pattern.assemble(parts.map(|((m, b), w)| (m, &b.stiffness, *w)), &active);
+    let factor = pattern.factor(&values, &active).unwrap();
+    let mut peer = masked(right.iter().map(|pair| pair[0]).collect(), &active);
+    pattern.solve(&factor, &mut peer);
+    [block_gap(&one, &other), block_gap(&other, &peer)]
 }
 
 /// Row 6: from 400 struts, in random order, each time against a factor made from nothing.
@@ -113,7 +123,7 @@ fn struts_go_in_random_order() {
     let mut chance = Chance(12);
     let mut order: Vec<usize> = (0..400).collect();
     (1..400).rev().for_each(|at| order.swap(at, chance.below(at + 1)));
-    let (mut worst, mut updates) = (0.0f64, 0);
+    let (mut worst, mut peer, mut updates) = (0.0f64, 0.0f64, 0);
     for member in order {
         used[member] = 0.0;
         let (wanted, free) = tied(&frame, &supports, &used);
@@ -122,9 +132,12 @@ fn struts_go_in_random_order() {
         fresh.start_from_nothing();
         fresh.advance(&wanted, &free).unwrap();
         assert!(fresh.was_made());
-        worst = worst.max(apart(&removed, &fresh, frame.nodes().len()));
+        let gaps = apart(&removed, &fresh, &frame, (&wanted, &free));
+        (worst, peer) = (worst.max(gaps[0]), peer.max(gaps[1]));
     }
-    eprintln!("400 struts taken away, {updates} as updates: {worst:.1e} apart at worst");
+    eprintln!(
+        "400 struts taken away, {updates} as updates: {worst:.1e} apart at worst, a new one and faer's {peer:.1e}"
+    );
     assert!(updates > 100 && worst < 1e-9);
 }
 
@@ -137,7 +150,7 @@ fn struts_come_harden_and_go() {
     let mut fresh = Growing::new(&frame, &beams, &keep, 240);
     let mut chance = Chance(14);
     let mut used = vec![0.0; 240];
-    let (mut worst, mut updates) = (0.0f64, 0);
+    let (mut worst, mut peer, mut updates) = (0.0f64, 0.0f64, 0);
     for _ in 0..600 {
         for _ in 0..=chance.below(3) {
             used[chance.below(240)] = if chance.next() < 0.3 { 0.0 } else { 0.05 + chance.next() };
@@ -147,10 +160,14 @@ fn struts_come_harden_and_go() {
         updates += usize::from(!changed.was_made());
         fresh.start_from_nothing();
         fresh.advance(&wanted, &free).unwrap();
-        worst = worst.max(apart(&changed, &fresh, frame.nodes().len()));
+        let gaps = apart(&changed, &fresh, &frame, (&wanted, &free));
+        (worst, peer) = (worst.max(gaps[0]), peer.max(gaps[1]));
     }
-    eprintln!("600 changes, {updates} as updates: {worst:.1e} apart at worst");
-    assert!(updates > 100 && worst < 1e-9);
+    eprintln!(
+        "600 changes, {updates} as updates: {worst:.1e} apart at worst, a new one and faer's {peer:.1e}"
+    );
+    // soft chains come by: there, what rounding does to any two factors is more
+    assert!(updates > 100 && worst < 1e-9_f64.max(2.0 * peer));
 }
 
 /// Row 4, small: the end of the print is that of a fresh solve, and nothing drifts.
@@ -179,10 +196,7 @@ fn whatever_changes_the_stage_is_that_of_a_fresh_solve() {
     let stages: Vec<Stage> = (1..=60)
         .map(|born| {
             let mut supports = supports.clone();
-            supports
-                .iter_mut()
-                .skip(2)
-                .for_each(|support| *support = Support::pinned(support.node));
+            supports.iter_mut().for_each(|support| *support = Support::pinned(support.node));
             if (20..40).contains(&born) {
                 supports.push(Support::pinned(frame.members()[12].ends[1]));
             }
