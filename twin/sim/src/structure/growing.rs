@@ -106,8 +106,8 @@ impl<'a> Growing<'a> {
         for member in less.collect::<Vec<_>>() {
             self.take(member, wanted[member], free)?;
         }
-        for node in 0..free.len() {
-            if free[node] != self.free[node] && free[node] == [true; 6] {
+        for (node, (now, before)) in free.iter().zip(&self.free).enumerate() {
+            if now != before && *now == [true; 6] {
                 self.factor.bear(node);
             }
         }

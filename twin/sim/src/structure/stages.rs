@@ -105,7 +105,7 @@ pub fn solve_stages(
         ask,
         growing: Growing::new(frame, &beams, &moving(frame, stages), born),
         standing: Standing::new(frame),
-        limit: LIMIT,
+        fresh: 0.0,
     };
     Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
 }
@@ -157,8 +157,8 @@ struct Sequence<'a> {
     ask: Ask<'a>,
     growing: Growing<'a>,
     standing: Standing,
-    /// [`LIMIT`], or what a factor made from nothing left last.
-    limit: f64,
+    /// Residual past [`LIMIT`] that a new factor left at the last stage that needed one.
+    fresh: f64,
 }
 
 impl Sequence<'_> {
@@ -207,11 +207,16 @@ impl Sequence<'_> {
             let gaps = self.standing.step(moment, &mut step);
             residuals = gaps.map(|gap| if loads > 0.0 { gap / loads } else { 0.0 });
             let worst = residuals[0].max(residuals[1]);
-            if worst <= self.limit || (solves == 2 && self.growing.refactor().is_err()) {
+            if worst <= LIMIT {
+                self.fresh = 0.0;
+                break;
+            }
+            // what a new factor did not mend last time it will not mend now
+            if solves == 2 && (worst <= 2.0 * self.fresh || self.growing.refactor().is_err()) {
                 break;
             }
             if solves == 4 {
-                self.limit = 2.0 * worst;
+                self.fresh = worst;
             }
         }
         self.standing.settle(moment);

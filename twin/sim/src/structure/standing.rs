@@ -150,11 +150,17 @@ impl Standing {
         sizes
     }
 
-    /// The stage is solved.
+    /// The stage is solved. An overflow is not handed on to the next one-shot answer.
     pub(super) fn settle(&mut self, moment: &Moment) {
         let free = moment.free.iter().flatten();
         for ((rest, gap), free) in self.rest.iter_mut().zip(&self.gap).zip(free) {
             *rest = if *free { *gap } else { [f64::NAN; 2] };
+        }
+        if !self.u.iter().all(|u| u[ONE_SHOT].is_finite()) {
+            self.u.iter_mut().for_each(|u| u[ONE_SHOT] = 0.0);
+            self.factors.clear();
+            self.loads.fill(0.0);
+            self.rest.fill([f64::NAN; 2]);
         }
     }
 

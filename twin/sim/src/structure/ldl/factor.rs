@@ -183,15 +183,15 @@ impl Factor {
             add_product(&mut self.d[a], &self.l[at], &minus_at);
             let (here, above) = self.l.split_at_mut(span.end);
             let mut target = self.symbolic.start[a];
-            for below in at + 1..span.end {
-                let b = self.symbolic.rows[below];
+            let below = &self.symbolic.rows[at + 1..span.end];
+            for (&b, from) in below.iter().zip(&here[at + 1..]) {
                 if self.rank[b] == Rank::Absent {
                     continue;
                 }
                 while self.symbolic.rows[target] < b {
                     target += 1;
                 }
-                add_product(&mut above[target - span.end], &here[below], &minus_lt);
+                add_product(&mut above[target - span.end], from, &minus_lt);
             }
         }
         Ok(())

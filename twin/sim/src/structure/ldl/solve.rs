@@ -55,20 +55,16 @@ impl Factor {
         let c = &self.c[j];
         let mut own = own;
         for k in 0..6 {
-            for side in 0..2 {
-                own[k][side] /= c[7 * k];
-                for row in k + 1..6 {
-                    own[row][side] -= c[6 * k + row] * own[k][side];
-                }
+            own[k] = own[k].map(|value| value / c[7 * k]);
+            for row in k + 1..6 {
+                take(&mut own, row, c[6 * k + row], k);
             }
         }
         for k in (0..6).rev() {
-            for side in 0..2 {
-                for row in k + 1..6 {
-                    own[k][side] -= c[6 * k + row] * own[row][side];
-                }
-                own[k][side] /= c[7 * k];
+            for row in k + 1..6 {
+                take(&mut own, k, c[6 * k + row], row);
             }
+            own[k] = own[k].map(|value| value / c[7 * k]);
         }
         x[j] = own;
     }
@@ -89,4 +85,11 @@ impl Factor {
         }
         x[j] = sum;
     }
+}
+
+/// Takes a multiple of one freedom from another.
+fn take(x: &mut [Pair; 6], to: usize, factor: f64, from: usize) {
+    let [one, two] = x[from];
+    x[to][0] -= factor * one;
+    x[to][1] -= factor * two;
 }
