@@ -6,6 +6,7 @@
 //! Displacements are small: nothing here sees buckling, contact or a member that slackens.
 
 mod assembly;
+mod balance;
 mod beam;
 mod frame;
 mod ground;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
+mod changes;
 mod closed_forms;
 pub(super) mod grows;
 mod peers;
