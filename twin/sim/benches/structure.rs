@@ -1,14 +1,20 @@
-//! A print, stage by stage: one ordering per run of stages and sparse factors, beside the naive way
-//! of a dense Cholesky from nothing at every stage.
+//! A print, stage by stage: one factor updated strut by strut, beside the naive way of a dense
+//! Cholesky from nothing at every stage, and beside faer's sparse factorisation at every strut with
+//! one order and one symbolic part for all of them.
 //!
-//! The frames are lattice towers made here: as many members and nodes as the bunny (384/130) and the
-//! duck (909/305) of the literature, printed from the ground up.
+//! The frames are made here: lattice towers with as many members and nodes as the bunny (384/130)
+//! and the duck (909/305) of the literature, printed from the ground up; and points at random in a
+//! cube, each tied to the three nearest below it.
 
 #![allow(missing_docs)]
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use faer::linalg::solvers::SolveCore;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, Mat, Side};
 use nalgebra::{DMatrix, DVector};
 use sim::pose::{Point, Vector};
 use sim::structure::{
@@ -57,10 +63,34 @@ fn member(ends: [usize; 2]) -> Member {
     }
 }
 
-fn stages(frame: &Frame) -> Vec<Stage> {
+/// Random points in a cube with some 20 mm between them, the lowest clamped (their number comes with
+/// the frame), each of the others tied to the three nearest below it.
+fn grown(member_count: usize) -> (Frame, usize) {
+    let (risen, ground) = (member_count.div_ceil(3), (member_count / 40).max(4));
+    let side_m = 0.02 * ((risen + ground) as f64).cbrt();
+    let mut seed = 7u64;
+    let mut chance = move || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        side_m * (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut nodes: Vec<Point> =
+        (0..risen + ground).map(|_| Point::new(chance(), chance(), chance())).collect();
+    nodes.sort_by(|a, b| a.z.total_cmp(&b.z));
+    let mut members = Vec::new();
+    for node in ground..nodes.len() {
+        let mut below: Vec<usize> = (0..node).collect();
+        let far = |other: usize| (nodes[other] - nodes[node]).norm();
+        below.sort_by(|&a, &b| far(a).total_cmp(&far(b)));
+        let left = member_count - members.len();
+        members.extend(below.into_iter().take(left.min(3)).map(|other| member([other, node])));
+    }
+    (Frame::new(nodes, members).expect("random points are apart"), ground)
+}
+
+fn stages(frame: &Frame, ground: usize) -> Vec<Stage> {
     let stage = |born| Stage {
         born,
-        supports: (0..7).map(Support::clamped).collect(),
+        supports: (0..ground).map(Support::clamped).collect(),
         gravity_m_s2: DOWN,
         at_nodes: Vec::new(),
         stiffness: Vec::new(),
@@ -140,6 +170,55 @@ fn add(
     }
 }
 
+/// What faer takes to factor and to solve for two right sides at every `step`th strut, unborn
+/// freedoms uncoupled; the numbers of K are added strut by strut, at no cost worth naming.
+fn refactored(frame: &Frame, ground: usize, step: usize) -> f64 {
+    let n = 6 * (frame.nodes().len() - ground);
+    let place = |node: usize| node.checked_sub(ground).map(|at| 6 * at);
+    let entries = |each: &Member| -> Vec<Triplet<usize, usize, f64>> {
+        let mut local = vec![usize::MAX; frame.nodes().len()];
+        (local[each.ends[0]], local[each.ends[1]]) = (0, 1);
+        let (mut k, mut f) = (DMatrix::zeros(12, 12), DVector::zeros(12));
+        add(frame, each, &local, &mut k, &mut f);
+        let freedom = |at: usize| place(each.ends[at / 6]).map(|start| start + at % 6);
+        let all = (0..12).flat_map(|row| (0..12).map(move |column| (row, column)));
+        all.filter_map(|(row, column)| Some((freedom(row)?, freedom(column)?, k[(row, column)])))
+            .filter(|(row, column, _)| row >= column)
+            .map(|(row, column, value)| Triplet::new(row, column, value))
+            .collect()
+    };
+    let parts: Vec<_> = frame.members().iter().map(entries).collect();
+    let mut all = parts.concat();
+    all.extend((0..n).map(|at| Triplet::new(at, at, 0.0)));
+    let mut k = SparseColMat::try_new_from_triplets(n, n, &all).expect("a pattern");
+    let symbolic = SymbolicLlt::try_new(k.symbolic(), Side::Lower).expect("memory");
+    k.val_mut().fill(0.0);
+    let position = |k: &SparseColMat<usize, f64>, row: usize, column: usize| {
+        let rows = k.symbolic().row_idx_of_col_raw(column);
+        k.symbolic().col_range(column).start + rows.binary_search(&row).expect("in the pattern")
+    };
+    for at in 0..n {
+        let at = position(&k, at, at);
+        k.val_mut()[at] = 1.0;
+    }
+    let mut born = vec![false; n];
+    let mut sum = 0.0;
+    for (at, part) in parts.iter().enumerate() {
+        for entry in part {
+            let to = position(&k, entry.row, entry.col);
+            let first = entry.row == entry.col && !std::mem::replace(&mut born[entry.row], true);
+            k.val_mut()[to] += entry.val - if first { 1.0 } else { 0.0 };
+        }
+        if at % step == 0 {
+            let factor = Llt::try_new_with_symbolic(symbolic.clone(), k.as_ref(), Side::Lower);
+            let mut x = Mat::<f64>::full(n, 2, 1.0);
+            factor.expect("no stage floats").solve_in_place_with_conj(Conj::No, x.as_mut());
+            sum += x[(0, 0)];
+        }
+    }
+    sum
+}
+
 fn most_one_shot(frame: &Frame, stages: &[Stage], ask: Ask) -> f64 {
     let records = solve_stages(frame, stages, ask).expect("the tower stands");
     let state = |record: &sim::structure::StageRecord| {
@@ -154,7 +233,7 @@ fn bench(criterion: &mut Criterion) {
     for (nodes, members) in [(130, 384), (305, 909)] {
         let frame = tower(nodes, members);
         assert_eq!(frame.members().len(), members);
-        let stages = stages(&frame);
+        let stages = stages(&frame, 7);
         let strength = Strength { tension_pa: 4e7, compression_pa: 6e7, bond_fraction: 0.5 };
         let strengths = vec![strength; members];
         let one_shot = Ask::default();
@@ -175,5 +254,30 @@ fn bench(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, bench);
+/// The same print by updates and by factoring; at 2500 the latter at every tenth strut only.
+fn bench_growth(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("growth");
+    group.sample_size(10);
+    for (members, step) in [(400, 1), (900, 1), (2500, 10)] {
+        let (frame, ground) = grown(members);
+        let stages = stages(&frame, ground);
+        let ask = Ask { staged: true, ..Ask::default() };
+        group.bench_function(BenchmarkId::new("one-shot, staged", members), |bencher| {
+            bencher.iter(|| most_one_shot(black_box(&frame), black_box(&stages), ask));
+        });
+        let name = format!("refactored at 1 strut of {step}");
+        group.bench_function(BenchmarkId::new(name, members), |bencher| {
+            bencher.iter(|| refactored(black_box(&frame), ground, step));
+        });
+    }
+    let (frame, ground) = grown(5000);
+    let stages = stages(&frame, ground);
+    let ask = Ask { staged: true, ..Ask::default() };
+    group.bench_function(BenchmarkId::new("one-shot, staged", 5000), |bencher| {
+        bencher.iter(|| most_one_shot(black_box(&frame), black_box(&stages), ask));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, bench, bench_growth);
 criterion_main!(benches);

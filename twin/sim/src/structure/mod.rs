@@ -7,6 +7,7 @@
 //! only says by what factor the loads may grow before that is wrong.
 
 mod assembly;
+mod balance;
 mod beam;
 mod buckling;
 pub mod corotational;
@@ -17,8 +18,11 @@ mod geometric;
 mod ground;
 mod lanczos;
 mod section;
+mod growing;
+mod ldl;
 mod solve;
 mod stages;
+mod standing;
 mod strength;
 #[cfg(test)]
 mod tests;

@@ -1,27 +1,23 @@
 //! The frame while it grows: every stage one-shot, and staged.
 //!
-//! Stages are taken in runs of [`RUN`]. A run has one pattern and one symbolic factorisation, made
-//! for its last and largest stage; each stage is then assembled and factored in parallel, on its
-//! own, with unborn freedoms uncoupled. Cost: `n/RUN` symbolic and `n` numeric factorisations, each
-//! of a frame no larger than at the end of its run; memory: `RUN` factors at a time. The staged
-//! answer adds one solve per stage, in order. Nothing depends on the number of threads.
+//! One order of elimination and one pattern serve all stages; from stage to stage the factor is
+//! updated by the members that came, hardened or went ([`Growing`]). Every stage is watched by its
+//! residual, taken member by member: past [`LIMIT`] it is solved once more for what is left, and
+//! where that does not do, the factor is made anew. Cost: one update per member (rank six, up the
+//! elimination tree), one solve per stage for both answers, and O(members) for forces. All of it is
+//! in order, so nothing depends on the number of threads.
 
-use rayon::prelude::*;
-
-use super::assembly::{Mechanism, Pattern};
-use super::beam::{Beam, Vector12, beams};
+use super::assembly::Mechanism;
+use super::beam::{Beam, beams};
 use super::frame::{Frame, NodeLoad, Support};
-use super::ground::{Tie, ground};
-use super::solve::{
-    SolveError, active_freedoms, add_ends, by_node, check_inputs, ends_of, fixed_freedoms, masked,
-    node_forces, parts, reactions, relative_gap,
-};
-use super::strength::{Cut, Span, Strength, Utilisation, check_strengths, spans, worst};
-use crate::pose::Vector;
+use super::ground::{Ground, Tie, ground};
+use super::growing::Growing;
+use super::solve::{SolveError, check_inputs, fixed_freedoms};
+use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
+use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
 
-/// Stages that share a pattern: enough that ordering costs little, few enough that early stages do
-/// not carry the rows of late ones.
-const RUN: usize = 16;
+/// Residual, relative to the loads, with which a stage is left.
+const LIMIT: f64 = 1e-10;
 
 /// One moment of the print.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,27 +97,17 @@ pub fn solve_stages(
     check(frame, stages, &ask)?;
     let beams = beams(frame);
     let spans = if ask.strengths.is_empty() { Vec::new() } else { spans(frame, &beams) };
-    let sequence = Sequence { frame, beams: &beams, spans: &spans, ask };
-    let mut memory = Memory::new(frame);
-    let mut records = Vec::with_capacity(stages.len());
-    for run in stages.chunks(RUN) {
-        let pattern = run_pattern(frame, run).ok_or(SolveError::TooLarge)?;
-        let first = records.len();
-        let prepared: Vec<Prepared> = run
-            .par_iter()
-            .enumerate()
-            .map(|(at, stage)| sequence.prepare(&pattern, stage, first + at))
-            .collect();
-        for (stage, mut prepared) in run.iter().zip(prepared) {
-            if ask.staged {
-                let index = records.len();
-                prepared.record.staged =
-                    sequence.advance(&pattern, stage, &prepared, &mut memory, index);
-            }
-            records.push(prepared.record);
-        }
-    }
-    Ok(records)
+    let born = stages.last().map_or(0, |stage| stage.born);
+    let mut sequence = Sequence {
+        frame,
+        beams: &beams,
+        spans: &spans,
+        ask,
+        growing: Growing::new(frame, &beams, &moving(frame, stages), born),
+        standing: Standing::new(frame),
+        fresh: 0.0,
+    };
+    Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
 }
 
 fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
@@ -147,25 +133,21 @@ fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
     Ok(())
 }
 
-/// Pattern of a run: nodes born by its end, without those clamped throughout.
-fn run_pattern(frame: &Frame, run: &[Stage]) -> Option<Pattern> {
-    let born = &frame.members()[..run.last().map_or(0, |stage| stage.born)];
-    let mut keep = vec![false; frame.nodes().len()];
-    for node in born.iter().flat_map(|member| member.ends) {
-        keep[node] = true;
-    }
-    let mut clamped = vec![true; frame.nodes().len()];
-    for stage in run {
-        for (clamped, fixed) in
-            clamped.iter_mut().zip(fixed_freedoms(frame.nodes().len(), &stage.supports))
-        {
+/// Nodes that have a member at the end, without those clamped throughout.
+fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
+    let count = frame.nodes().len();
+    let born = &frame.members()[..stages.last().map_or(0, |stage| stage.born)];
+    let mut clamped = vec![true; count];
+    for stage in stages {
+        for (clamped, fixed) in clamped.iter_mut().zip(fixed_freedoms(count, &stage.supports)) {
             *clamped &= fixed == [true; 6];
         }
     }
-    for (keep, clamped) in keep.iter_mut().zip(clamped) {
-        *keep &= !clamped;
+    let mut moving = vec![false; count];
+    for node in born.iter().flat_map(|member| member.ends) {
+        moving[node] = !clamped[node];
     }
-    Pattern::new(&keep, born)
+    moving
 }
 
 struct Sequence<'a> {
@@ -173,179 +155,78 @@ struct Sequence<'a> {
     beams: &'a [Beam],
     spans: &'a [Span<'a>],
     ask: Ask<'a>,
-}
-
-/// A stage ready to be solved for any right side.
-struct Prepared {
-    tie: Vec<Tie>,
-    active: Vec<bool>,
-    /// `None` where the stage is a mechanism.
-    factor: Option<Vec<f64>>,
-    record: StageRecord,
-}
-
-/// What the staged answer carries from stage to stage.
-struct Memory {
-    u: Vec<f64>,
-    /// Elastic force of each member on its nodes, weight not included.
-    elastic: Vec<Vector12>,
-    /// Load each member's initial strain was born with.
-    strain: Vec<Vector12>,
-    born: usize,
-}
-
-impl Memory {
-    fn new(frame: &Frame) -> Self {
-        let none = vec![Vector12::zeros(); frame.members().len()];
-        Self { u: vec![0.0; 6 * frame.nodes().len()], elastic: none.clone(), strain: none, born: 0 }
-    }
+    growing: Growing<'a>,
+    standing: Standing,
+    /// Residual past [`LIMIT`] that a new factor left at the last stage that needed one.
+    fresh: f64,
 }
 
 impl Sequence<'_> {
-    fn prepare(&self, pattern: &Pattern, stage: &Stage, index: usize) -> Prepared {
+    fn take(&mut self, stage: &Stage, index: usize) -> StageRecord {
         let node_count = self.frame.nodes().len();
         let born = &self.frame.members()[..stage.born];
-        let ground = ground(node_count, born, &stage.supports);
-        let mut floats = ground.floats;
+        let Ground { tie, mut floats } = ground(node_count, born, &stage.supports);
         let loaded = stage.at_nodes.iter().map(|load| load.node);
-        floats.extend(loaded.filter(|&node| ground.tie[node] == Tie::Unborn));
+        floats.extend(loaded.filter(|&node| tie[node] == Tie::Unborn));
         floats.sort_unstable();
         floats.dedup();
-        let active =
-            active_freedoms(pattern, &ground.tie, &fixed_freedoms(node_count, &stage.supports));
-        let values = pattern.assemble(parts(born, self.beams, &stage.stiffness), &active);
-        let record = StageRecord { floats, mechanism: None, one_shot: None, staged: None };
-        let mut prepared = Prepared { tie: ground.tie, active, factor: None, record };
-        match pattern.factor(&values, &prepared.active) {
-            Ok(factor) => {
-                prepared.record.one_shot =
-                    Some(self.one_shot(pattern, stage, &prepared, (&values, &factor), index));
-                prepared.factor = Some(factor);
-            }
-            Err(Mechanism { node, freedom }) => prepared.record.mechanism = Some((node, freedom)),
-        }
-        prepared
-    }
+        let mut record = StageRecord { floats, mechanism: None, one_shot: None, staged: None };
 
-    fn one_shot(
-        &self,
-        pattern: &Pattern,
-        stage: &Stage,
-        prepared: &Prepared,
-        (values, factor): (&[f64], &[f64]),
-        index: usize,
-    ) -> StageState {
-        let fixed_load = |member: usize| {
-            self.beams[member].weight_load(stage.gravity_m_s2)
-                + self.beams[member].strain_load * stiffness_of(stage, member)
-        };
-        let f = self.sum(stage, fixed_load);
-        let right = masked(pattern.gather(&f), &prepared.active);
-        let mut kept_u = right.clone();
-        pattern.solve(factor, &mut kept_u);
-        let residual = relative_gap(&pattern.multiply(values, &kept_u), &right);
-        let mut u = vec![0.0; f.len()];
-        pattern.scatter_add(&kept_u, &mut u);
-        let end_forces: Vec<Vector12> = (0..stage.born)
-            .map(|member| {
-                let stretch = ends_of(&u, &self.frame.members()[member]);
-                self.beams[member].stiffness * stretch * stiffness_of(stage, member)
-                    - fixed_load(member)
-            })
-            .collect();
-        self.state(stage, &prepared.tie, &u, &end_forces, residual, index)
-    }
-
-    /// Takes the staged answer over one stage; a mechanism leaves it where it was.
-    fn advance(
-        &self,
-        pattern: &Pattern,
-        stage: &Stage,
-        prepared: &Prepared,
-        memory: &mut Memory,
-        index: usize,
-    ) -> Option<StageState> {
-        for member in memory.born..stage.born {
-            memory.strain[member] = self.beams[member].strain_load * stiffness_of(stage, member);
-            memory.elastic[member] = -memory.strain[member];
+        let mut free = fixed_freedoms(node_count, &stage.supports).into_iter().zip(&tie);
+        let free: Vec<[bool; 6]> =
+            free.by_ref().map(|(fixed, &tie)| fixed.map(|f| !f && tie == Tie::Held)).collect();
+        let mut wanted = vec![0.0; self.frame.members().len()];
+        for (at, _) in born.iter().enumerate().filter(|(_, m)| tie[m.ends[0]] == Tie::Held) {
+            wanted[at] = stage.stiffness_of(at);
         }
-        memory.born = stage.born;
-        let factor = prepared.factor.as_ref()?;
-        let weight = |member: usize| self.beams[member].weight_load(stage.gravity_m_s2);
-        let loads = self.sum(stage, |member| weight(member) + memory.strain[member]);
-        let loads = masked(pattern.gather(&loads), &prepared.active);
-        let left_over = |elastic: &[Vector12]| {
-            let gap = self.sum(stage, |member| weight(member) - elastic[member]);
-            masked(pattern.gather(&gap), &prepared.active)
-        };
-        let mut step = left_over(&memory.elastic);
-        pattern.solve(factor, &mut step);
-        pattern.scatter_add(&step, &mut memory.u);
-        let mut du = vec![0.0; memory.u.len()];
-        pattern.scatter_add(&step, &mut du);
-        for (member, elastic) in memory.elastic[..stage.born].iter_mut().enumerate() {
-            let stretch = ends_of(&du, &self.frame.members()[member]);
-            *elastic += self.beams[member].stiffness * stretch * stiffness_of(stage, member);
+        let moment = Moment { frame: self.frame, beams: self.beams, stage, tie: &tie, free: &free };
+        self.standing.bear(&moment);
+        if let Err(Mechanism { node, freedom }) = self.growing.advance(&wanted, &free) {
+            record.mechanism = Some((node, freedom));
+            return record;
         }
-        let left = left_over(&memory.elastic);
-        let balanced: Vec<f64> = loads.iter().zip(&left).map(|(load, left)| load - left).collect();
-        let end_forces: Vec<Vector12> =
-            (0..stage.born).map(|member| memory.elastic[member] - weight(member)).collect();
-        let residual = relative_gap(&balanced, &loads);
-        Some(self.state(stage, &prepared.tie, &memory.u, &end_forces, residual, index))
-    }
-
-    /// Loads at nodes, and a load of every born member, in the freedoms of the frame.
-    fn sum(&self, stage: &Stage, of_member: impl Fn(usize) -> Vector12) -> Vec<f64> {
-        let mut f = node_forces(self.frame.nodes().len(), &stage.at_nodes);
-        for (at, member) in self.frame.members()[..stage.born].iter().enumerate() {
-            add_ends(&mut f, member, &of_member(at));
-        }
-        f
-    }
-
-    fn state(
-        &self,
-        stage: &Stage,
-        tie: &[Tie],
-        u: &[f64],
-        end_forces: &[Vector12],
-        residual: f64,
-        index: usize,
-    ) -> StageState {
-        let (mut max_translation_m, mut max_node, mut max_rotation_rad) = (0.0, 0, 0.0f64);
-        for (node, six) in u.chunks_exact(6).enumerate() {
-            let translation_m = Vector::new(six[0], six[1], six[2]).norm();
-            if translation_m > max_translation_m {
-                (max_translation_m, max_node) = (translation_m, node);
-            }
-            max_rotation_rad = max_rotation_rad.max(Vector::new(six[3], six[4], six[5]).norm());
-        }
-        let cut = |(member, forces): (usize, &Vector12)| {
-            let held = tie[self.frame.members()[member].ends[0]] == Tie::Held;
-            let line = self.beams[member].line_load(stage.gravity_m_s2);
-            let part = if held { 1.0 } else { 0.0 };
-            Cut::new((forces * part).as_slice(), line * part)
-        };
-        let utilisation = if self.spans.is_empty() {
-            None
-        } else {
-            let cuts: Vec<Cut> = end_forces.iter().enumerate().map(cut).collect();
-            worst(self.spans, &cuts, self.ask.strengths)
-        };
+        let residuals = self.settle(&moment);
         let kept = self.ask.keep.contains(&index);
-        StageState {
-            max_translation_m,
-            max_node,
-            max_rotation_rad,
-            utilisation,
-            reactions: reactions(self.frame, end_forces, &stage.supports, &stage.at_nodes),
-            residual,
-            displacement: if kept { by_node(u) } else { Vec::new() },
+        let state = |side: usize| {
+            let strength = (self.spans, self.ask.strengths);
+            self.standing.state(&moment, side, strength, residuals[side], kept)
+        };
+        record.one_shot = Some(state(ONE_SHOT));
+        record.staged = self.ask.staged.then(|| state(STAGED));
+        record
+    }
+
+    /// Lets both answers come to rest; what is left out of balance, relative to the loads.
+    ///
+    /// Four solves at most: the first, one for what is left, and both again with a new factor.
+    fn settle(&mut self, moment: &Moment) -> [f64; 2] {
+        let (mut step, loads) = self.standing.start(moment);
+        let mut residuals = [0.0; 2];
+        for solves in 1..=4 {
+            self.growing.solve(&mut step);
+            let gaps = self.standing.step(moment, &mut step);
+            residuals = gaps.map(|gap| if loads > 0.0 { gap / loads } else { 0.0 });
+            let worst = residuals[0].max(residuals[1]);
+            if worst <= LIMIT {
+                self.fresh = 0.0;
+                break;
+            }
+            // what a new factor did not mend last time it will not mend now
+            if solves == 2 && (worst <= 2.0 * self.fresh || self.growing.refactor().is_err()) {
+                break;
+            }
+            if solves == 4 {
+                self.fresh = worst;
+            }
         }
+        self.standing.settle(moment);
+        residuals
     }
 }
 
-fn stiffness_of(stage: &Stage, member: usize) -> f64 {
-    stage.stiffness.get(member).copied().unwrap_or(1.0)
+impl Stage {
+    /// Factor on the stiffness of a member.
+    pub(crate) fn stiffness_of(&self, member: usize) -> f64 {
+        self.stiffness.get(member).copied().unwrap_or(1.0)
+    }
 }

@@ -4,7 +4,9 @@
 
 mod brute_force;
 mod buckles;
+mod changes;
 mod closed_forms;
+pub(super) mod grows;
 mod peers;
 mod sequence;
 mod slender_beams;
