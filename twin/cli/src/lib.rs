@@ -19,6 +19,7 @@ mod refusal;
 mod robot;
 mod schema;
 mod screen;
+mod solve;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -64,6 +65,7 @@ enum Command {
     Inspect(inspect::Inspect),
     Explain(explain::Explain),
     Schema(schema::Schema),
+    Solve(solve::Solve),
     Validate(validate::Validate),
     Doctor(doctor::Doctor),
 }
@@ -116,6 +118,7 @@ impl Command {
             Self::Inspect(command) => command.run(screen),
             Self::Explain(command) => command.run(screen),
             Self::Schema(command) => command.run(screen),
+            Self::Solve(command) => command.run(screen),
             Self::Validate(command) => command.run(screen),
             Self::Doctor(command) => command.run(screen),
         }

@@ -3,6 +3,7 @@
 mod calibrate;
 mod jobs;
 mod robots;
+mod solve;
 mod validate;
 
 use std::ffi::OsString;

@@ -5,6 +5,7 @@
 //! | `job.slam`      | [`document::Document`]        | `job`          |
 //! | cell, tool, robot, material `.toml` | [`cell_file`], [`tool_file`], [`robot_file`], [`material_file`] | same |
 //! | `MEASURED.toml` | [`measured_file::MeasuredFile`] | `measured_file` |
+//! | frame `.json`   | [`frame_file::FrameFile`]     | `frame_file`   |
 //! | `.urdf`         | [`urdf::RobotDescription`]    | `urdf`         |
 //! | `.stl`, `.obj`  | [`mesh::Mesh`]                | `mesh`         |
 //!
@@ -14,6 +15,7 @@
 pub mod cell_file;
 pub mod diagnostic;
 pub mod document;
+pub mod frame_file;
 pub mod job;
 pub mod material_file;
 pub mod measured_file;
