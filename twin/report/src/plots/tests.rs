@@ -72,7 +72,7 @@ pub(super) fn well_formed(xml: &str) -> Result<(), String> {
             continue;
         }
         let name = tag.split([' ', '/']).next().unwrap_or_default();
-        if name.is_empty() || tag.contains('<') || tag.matches('"').count() % 2 != 0 {
+        if name.is_empty() || tag.contains('<') || !tag.matches('"').count().is_multiple_of(2) {
             return Err(format!("no tag: {tag}"));
         }
         tag.split('"').skip(1).step_by(2).try_for_each(sound_text)?;

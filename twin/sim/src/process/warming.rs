@@ -152,7 +152,7 @@ impl<'a> Run<'a> {
             around.air_k,
         ];
         let rise_k = adiabatic_rise_k(body.enthalpy_j_kg, 1.0, cp_j_kgk);
-        if !(positive.iter().all(|v| *v > 0.0 && v.is_finite()) && rise_k >= 0.0 && rise_k < 1e6) {
+        if !(positive.iter().all(|v| *v > 0.0 && v.is_finite()) && (0.0..1e6).contains(&rise_k)) {
             return None;
         }
         let rings = Rings::new(radius_m, conductivity_w_mk, density_kg_m3 * cp_j_kgk, count)?;
