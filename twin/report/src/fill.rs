@@ -279,6 +279,7 @@ fn load(load: &growth::LoadResult) -> LoadCase {
         name: load.name.clone(),
         deflection_m: solved.then_some(load.deflection_m).and_then(number),
         first_yield: load.first_yield.and_then(number),
+        buckling_factor: load.buckling.and_then(number),
         fault: load.fault.map(|fault| fault.to_string()),
     }
 }

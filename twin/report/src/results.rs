@@ -314,6 +314,9 @@ pub struct LoadCase {
     pub deflection_m: Option<f64>,
     /// Factor on the forces at which the first member yields; null: not found.
     pub first_yield: Option<f64>,
+    /// Factor on weight and forces together at which the frame, were it perfect, would buckle; null: at none, or not
+    /// found. Held against nothing yet.
+    pub buckling_factor: Option<f64>,
     /// Why the case could not be solved, if it could not.
     pub fault: Option<String>,
 }

@@ -198,6 +198,7 @@ pub(crate) fn report() -> Report {
             name: "seat".to_owned(),
             deflection_m: Some(2.4e-3),
             first_yield: Some(3.2),
+            buckling_factor: Some(8.5),
             fault: None,
         }],
         totals: Totals {

@@ -5,7 +5,8 @@ use crate::cell::{Job, LoadCase};
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::pose::{Point, Vector};
 use crate::structure::{
-    Frame, Load, NodeLoad, SolveError, Strength, Support, first_yield_factor, solve,
+    BucklingAsk, Frame, Load, Mode, NodeLoad, SolveError, Strength, Support, buckling,
+    first_yield_factor, solve,
 };
 
 /// What a load case came to.
@@ -17,6 +18,9 @@ pub struct LoadResult {
     pub deflection_m: f64,
     /// Factor on the forces at which the first member yields; `None`: it could not be found.
     pub first_yield: Option<f64>,
+    /// Factor on weight and forces together at which the frame, were it perfect, would buckle; infinite: at none;
+    /// `None`: it could not be found. Two parts per member.
+    pub buckling: Option<f64>,
     /// Why the case could not be solved, if it could not.
     pub fault: Option<SolveError>,
 }
@@ -55,25 +59,25 @@ fn solve_case(job: &Job, built: &Built, strengths: &[Strength], case: &LoadCase)
         .collect();
     let gravity: [f64; 3] =
         job.gravity_in_part(&job.cell.robot.arm.chain.forward(&job.cell.home)).into();
-    match under(&seats, &supports, forces, gravity) {
-        Ok((deflection_m, first_yield)) => {
-            LoadResult { name: case.name.clone(), deflection_m, first_yield, fault: None }
-        }
+    match under(&case.name, &seats, &supports, forces, gravity) {
+        Ok(result) => result,
         Err(fault) => LoadResult {
             name: case.name.clone(),
             deflection_m: 0.0,
             first_yield: None,
+            buckling: None,
             fault: Some(fault),
         },
     }
 }
 
 fn under(
+    name: &str,
     seats: &Seats,
     supports: &[Support],
     forces: Vec<NodeLoad>,
     gravity: [f64; 3],
-) -> Result<(f64, Option<f64>), SolveError> {
+) -> Result<LoadResult, SolveError> {
     let weight = Load { gravity_m_s2: gravity, ..Load::default() };
     let load = Load { at_nodes: forces, ..Load::default() };
     let resting = solve(&seats.frame, supports, &weight)?;
@@ -89,7 +93,16 @@ fn under(
         (&loaded, [0.0; 3]),
     )
     .ok();
-    Ok((deflection_m, factor.filter(|factor| factor.is_finite())))
+    let both = Load { gravity_m_s2: gravity, ..load };
+    let modes = buckling(&seats.frame, supports, &both, BucklingAsk::default());
+    let least = |modes: &[Mode]| modes.first().map_or(f64::INFINITY, |mode| mode.factor);
+    Ok(LoadResult {
+        name: name.to_owned(),
+        deflection_m,
+        first_yield: factor.filter(|factor| factor.is_finite()),
+        buckling: modes.ok().map(|modes| least(&modes)),
+        fault: None,
+    })
 }
 
 /// A frame that gets a node wherever a support or force sits.

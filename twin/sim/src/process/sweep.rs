@@ -16,6 +16,11 @@ const BRIGHT: f64 = 0.1;
 const MOST_STEPS: f64 = 256.0;
 /// Step of the lamps, in standard widths of the lobe.
 const STEP_WIDTHS: f64 = 0.4;
+/// Lobe widths before the end of the run from which steps are finer: segments born there see little light beyond the edges
+/// of shadows, and a step's error is a greater part of it.
+const LAST_WIDTHS: f64 = 2.0;
+/// How much finer.
+const LAST_FINER: f64 = 8.0;
 
 /// See [`add_run`](super::dose::add_run).
 pub(super) fn sweep(
@@ -38,7 +43,7 @@ pub(super) fn sweep(
     let mut sweep = Sweep::new(segments, azimuths, strand, run.lights);
     let mut reached = Vec::new();
     for (number, pair) in spans(run).iter().enumerate() {
-        let (count, slack_m, slack_rad) = grain.steps(pair, run.lights);
+        let (count, slack_m, slack_rad) = grain.steps(pair, run);
         for i in 0..count {
             let cut = |i: usize| pair[0].towards(&pair[1], i as f64 / count as f64);
             let mut step = Step::new([cut(i), cut(i + 1)], (number, i), run.lights);
@@ -222,13 +227,15 @@ impl Grain {
     }
 
     /// How many steps a span takes, and how far lamps move (m) and turn (rad) in one.
-    fn steps(&self, span: &[Station; 2], lights: &Lights) -> (usize, f64, f64) {
+    fn steps(&self, span: &[Station; 2], run: &Run) -> (usize, f64, f64) {
         let (mut count, mut most_m, mut most_rad): (f64, f64, f64) = (1.0, 0.0, 0.0);
         let sizes = self.widths_m.iter().zip(&self.arms_m);
-        for (set, (width_m, arm_m)) in lights.sets.iter().zip(sizes) {
+        let left_m = run.stations.last().map_or(0.0, |last| (last.point - span[1].point).norm());
+        for (set, (width_m, arm_m)) in run.lights.sets.iter().zip(sizes) {
             let (moved_m, turned_rad) = carried(set, span);
             let moved_m = moved_m + turned_rad * arm_m;
-            let steps = (moved_m / (STEP_WIDTHS * width_m)).ceil();
+            let finer = if left_m < LAST_WIDTHS * width_m { LAST_FINER } else { 1.0 };
+            let steps = (finer * moved_m / (STEP_WIDTHS * width_m)).ceil();
             count = count.max(steps);
             (most_m, most_rad) = (most_m.max(moved_m), most_rad.max(turned_rad));
         }
