@@ -179,9 +179,9 @@ fn frame(report: &Report, screen: &mut Screen) {
         let yields = load.first_yield.map_or_else(String::new, |factor| {
             format!(", first yield at {} times the load", digits(factor))
         });
-        let buckles = load.buckling_factor.map_or_else(String::new, |factor| {
-            format!(", buckles (if perfect) at {} times it with the weight", digits(factor))
-        });
+        let buckles = load
+            .buckling_factor
+            .map_or_else(String::new, |factor| format!(", buckling at {}", digits(factor)));
         let value = match &load.fault {
             Some(fault) => format!("not solved: {fault}"),
             None => format!("bends {}{yields}{buckles}", Unit::Millimetre.show(load.deflection_m)),
