@@ -140,6 +140,23 @@ fn a_prefix_that_floats_is_told() {
 }
 
 #[test]
+fn a_clamped_node_may_be_spare() {
+    let frame = json!({
+        "nodes": [[0, 0, 0], [0, 0, 10], [5, 0, 0]], "members": [[0, 1]], "radius": [1],
+        "fixed": [0, 2], "E": 2400, "G": 900, "density": 1e-6, "sequence": [0], "buckling": {"modes": 1},
+    });
+    let (code, answer) = solved("spare", &frame);
+    assert_eq!(code, FEASIBLE);
+    assert_eq!(numbers(&answer["u"][2]), [0.0; 6]);
+    assert_eq!(numbers(&answer["reactions"][1]), [0.0; 6]);
+    // A column under its own weight, q L³/EI = 7.8373 (structures.md B11); with two parts 10 % low.
+    let ei = 2400.0 * std::f64::consts::PI / 4.0;
+    let column = 7.8373 * ei / (1e-6 * std::f64::consts::PI * 9.80665 * 1000.0);
+    let factor = numbers(&answer["buckling"])[0] / column;
+    assert!((0.88..0.92).contains(&factor), "{factor}");
+}
+
+#[test]
 fn what_is_no_frame_is_refused_with_its_place() {
     let folder = folder("solve-refused");
     let path = write(&folder, "frame.json", "{\n\"nodes\": 7}");

@@ -101,10 +101,12 @@ impl<'a> Held<'a> {
     /// Supports must name nodes that are there.
     pub(crate) fn new(frame: &'a Frame, supports: &'a [Support]) -> Result<Self, SolveError> {
         let tie = ground(frame.nodes().len(), frame.members(), supports).tie;
-        if let Some(node) = tie.iter().position(|&tie| tie != Tie::Held) {
+        let fixed = fixed_freedoms(frame.nodes().len(), supports);
+        // A node that no member needs but that is clamped stands where it is.
+        let stands = |(tie, fixed): (&Tie, &[bool; 6])| *tie == Tie::Held || *fixed == [true; 6];
+        if let Some(node) = tie.iter().zip(&fixed).position(|it| !stands(it)) {
             return Err(SolveError::Floats { node });
         }
-        let fixed = fixed_freedoms(frame.nodes().len(), supports);
         let keep: Vec<bool> = fixed.iter().map(|fixed| fixed.contains(&false)).collect();
         let pattern = Pattern::new(&keep, frame.members()).ok_or(SolveError::TooLarge)?;
         let beams = beams(frame);

@@ -149,8 +149,8 @@ fn jets(library: &Library<'_>) -> Case {
 fn still_why(name: &str, d_mm: f64, material: &Material, still: Interval) -> String {
     let warm = usable_speed_m_s(&with_cp_high(material), d_mm * 1e-3, 0.0).scaled(1e3);
     format!(
-        "{name} of {d_mm} mm can do without jets up to {} mm/s; its specific heat is of 23 °C in the library, and at the high \
-         end of its range that is {} mm/s; with all inputs adverse {} mm/s",
+        "{name} of {d_mm} mm can do without jets up to {} mm/s by nominal values; at the high end of its specific heat that \
+         is {} mm/s, with all inputs adverse {} mm/s: the band is inside what it may be",
         number(still.nominal),
         number(warm.nominal),
         number(still.low)
