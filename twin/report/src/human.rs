@@ -1,7 +1,7 @@
 //! The report for a terminal.
 
 use crate::parts::{Finding, Phase, Report, Severity, Verdict};
-use crate::quantity::{Unit, against, clock, digits};
+use crate::quantity::{Unit, against, clock, counted, digits};
 use crate::results::{Range, Strand};
 use crate::screen::{Paint, Screen};
 
@@ -223,8 +223,4 @@ fn totals(report: &Report, screen: &mut Screen) {
         "           {} in report.json",
         counted(report.assumptions.len(), "assumption")
     ));
-}
-
-fn counted(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }

@@ -95,6 +95,11 @@ pub(crate) fn digits(value: f64) -> String {
     if is_zero { text[1..].to_owned() } else { text }
 }
 
+/// `1 strand`, `3 strands`.
+pub(crate) fn counted(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}
+
 /// h:mm:ss, to the nearest second.
 pub(crate) fn clock(time_s: Option<f64>) -> String {
     let Some(time_s) = time_s else { return "?".to_owned() };

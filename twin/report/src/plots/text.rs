@@ -1,5 +1,6 @@
 //! Text and numbers for a page: nothing of a job's text is ever markup.
 
+pub(super) use crate::quantity::counted;
 use crate::quantity::digits;
 use crate::results::Range;
 
@@ -142,9 +143,4 @@ pub(super) fn power(value: f64, decimals: usize) -> String {
         "-1" => format!("-10{raised}"),
         _ => format!("{mantissa}·10{raised}"),
     }
-}
-
-/// `1 strand`, `3 strands`.
-pub(super) fn counted(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }

@@ -5,7 +5,7 @@
 //! straight, so `∫ κ̇ dξ = 0`, under a nozzle that clamps the slope `∫ ξ κ̇ dξ = 0` too, and `δ = ∫ ξ² κ̇ dξ / (2 v)`. For a Newtonian that is its closed form.
 
 use super::kamal::GAUSS_UNIT;
-use super::plastic_bending::{Bend, GelBeam, falling_root, integral, plastic_moment_n_m};
+use super::plastic_bending::{Bend, GelBeam, falling_root, gauss, integral, plastic_moment_n_m};
 use super::yield_stress::{HerschelBulkley, Structure, yield_at_age_pa};
 
 /// Quadrature panels of five points to the soft zone of a hinged nozzle: 2e-3 of the sag, a few hundredths of the little just
@@ -259,13 +259,4 @@ impl Hinged {
         }
         greatest
     }
-}
-
-/// Five-point Gauss–Legendre; zero where it does not ascend.
-fn gauss(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
-    if !(to > from) {
-        return 0.0;
-    }
-    let step = to - from;
-    step * GAUSS_UNIT.iter().map(|&(x, weight)| weight * value(from + x * step)).sum::<f64>()
 }

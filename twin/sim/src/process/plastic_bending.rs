@@ -194,11 +194,18 @@ pub(super) fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
         return 0.0;
     }
     let step = (to - from) / f64::from(PANELS);
-    let panel = |i: u32| -> f64 {
-        let start = from + f64::from(i) * step;
-        GAUSS_UNIT.iter().map(|&(x, weight)| weight * value(start + x * step)).sum()
-    };
-    step * (0..PANELS).map(panel).sum::<f64>()
+    let panels = (0..PANELS).map(|i| panel(from + f64::from(i) * step, step, &value));
+    step * panels.sum::<f64>()
+}
+
+/// One panel of five points, of length one.
+fn panel(start: f64, step: f64, value: impl Fn(f64) -> f64) -> f64 {
+    GAUSS_UNIT.iter().map(|&(x, weight)| weight * value(start + x * step)).sum()
+}
+
+/// Gauss–Legendre of five points; zero where it does not ascend.
+pub(super) fn gauss(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
+    if to > from { (to - from) * panel(from, to - from, value) } else { 0.0 }
 }
 
 /// Logarithm of the gamma function of a number above zero, to 1e-13: Stirling from ten on, stepped down.

@@ -157,13 +157,8 @@ impl Pattern {
         }
     }
 
-    /// `L D Lᵀ` of the assembled values.
-    ///
-    /// # Errors
-    /// The first pivot, in the order of elimination, that is not above [`PIVOT_RATIO`] of its
-    /// diagonal entry.
-    pub(crate) fn factor(&self, values: &[f64], active: &[bool]) -> Result<Vec<f64>, Mechanism> {
-        let Some(symbolic) = &self.symbolic else { return Ok(Vec::new()) };
+    /// faer's `L D Lᵀ` of the assembled values, and whether it met an exact zero.
+    fn ldlt(&self, symbolic: &SymbolicCholesky<usize>, values: &[f64]) -> (Vec<f64>, bool) {
         let mut factor = vec![0.0; symbolic.len_val()];
         let request = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
         let stuck = symbolic
@@ -177,6 +172,17 @@ impl Pattern {
                 Default::default(),
             )
             .is_err();
+        (factor, stuck)
+    }
+
+    /// `L D Lᵀ` of the assembled values.
+    ///
+    /// # Errors
+    /// The first pivot, in the order of elimination, that is not above [`PIVOT_RATIO`] of its
+    /// diagonal entry.
+    pub(crate) fn factor(&self, values: &[f64], active: &[bool]) -> Result<Vec<f64>, Mechanism> {
+        let Some(symbolic) = &self.symbolic else { return Ok(Vec::new()) };
+        let (factor, stuck) = self.ldlt(symbolic, values);
         // faer names the step of an exact zero now with, now without an offset: look at D instead
         let step_of = |step: usize| symbolic.perm().map_or(step, |perm| perm.arrays().0[step]);
         for (step, pivot) in pivots(symbolic, &factor).into_iter().enumerate() {

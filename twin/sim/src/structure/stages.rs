@@ -112,7 +112,7 @@ pub fn solve_stages(
 
 fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
     if !ask.strengths.is_empty() {
-        check_strengths(frame, ask.strengths)?;
+        check_strengths(frame.members().len(), ask.strengths)?;
     }
     let mut before = 0;
     for stage in stages {

@@ -17,7 +17,7 @@ pub struct Strength {
 }
 
 impl Strength {
-    pub(crate) fn is_usable(&self) -> bool {
+    fn is_usable(&self) -> bool {
         [self.tension_pa, self.compression_pa, self.bond_fraction]
             .iter()
             .all(|number| number.is_finite() && *number > 0.0)
@@ -150,9 +150,9 @@ impl Span<'_> {
 }
 
 /// One strength per member, each usable.
-pub(crate) fn check_strengths(frame: &Frame, strengths: &[Strength]) -> Result<(), SolveError> {
-    if strengths.len() != frame.members().len() {
-        return Err(SolveError::BadMember { member: strengths.len().min(frame.members().len()) });
+pub(crate) fn check_strengths(members: usize, strengths: &[Strength]) -> Result<(), SolveError> {
+    if strengths.len() != members {
+        return Err(SolveError::BadMember { member: strengths.len().min(members) });
     }
     match strengths.iter().position(|strength| !strength.is_usable()) {
         Some(member) => Err(SolveError::BadMember { member }),
@@ -171,7 +171,7 @@ pub fn utilisation(
     solution: &Solution,
     gravity_m_s2: [f64; 3],
 ) -> Result<Option<Utilisation>, SolveError> {
-    check_strengths(frame, strengths)?;
+    check_strengths(frame.members().len(), strengths)?;
     let cuts = cuts(frame, solution, gravity_m_s2)?;
     Ok(worst(&spans(frame, &beams(frame)), &cuts, strengths))
 }
@@ -190,7 +190,7 @@ pub fn first_yield_factor(
     lasting: (&Solution, [f64; 3]),
     growing: (&Solution, [f64; 3]),
 ) -> Result<f64, SolveError> {
-    check_strengths(frame, strengths)?;
+    check_strengths(frame.members().len(), strengths)?;
     let base = cuts(frame, lasting.0, lasting.1)?;
     let step = cuts(frame, growing.0, growing.1)?;
     let spans = spans(frame, &beams(frame));

@@ -1,9 +1,5 @@
 //! `L D Lᵀ` of a tangent that need not be positive: past a limit point a pivot is negative.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SparseColMatRef;
-use faer::{Par, Side};
-
 use super::{Pattern, pivots};
 
 /// A factor and what its pivots say.
@@ -23,21 +19,9 @@ impl Pattern {
         let Some(symbolic) = &self.symbolic else {
             return Some(Signed { factor: Vec::new(), negative: 0 });
         };
-        let mut factor = vec![0.0; symbolic.len_val()];
-        let request = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
-        symbolic
-            .factorize_numeric_ldlt(
-                &mut factor,
-                SparseColMatRef::new(self.shape(), values),
-                Side::Lower,
-                Default::default(),
-                Par::Seq,
-                MemStack::new(&mut MemBuffer::new(request)),
-                Default::default(),
-            )
-            .ok()?;
+        let (factor, stuck) = self.ldlt(symbolic, values);
         let pivots = pivots(symbolic, &factor);
-        let sound = pivots.iter().all(|pivot| pivot.is_finite() && *pivot != 0.0);
+        let sound = !stuck && pivots.iter().all(|pivot| pivot.is_finite() && *pivot != 0.0);
         let negative = pivots.iter().filter(|pivot| **pivot < 0.0).count();
         sound.then_some(Signed { factor, negative })
     }

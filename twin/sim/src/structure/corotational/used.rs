@@ -6,7 +6,7 @@ use crate::pose::Vector;
 use crate::structure::beam::{Vector12, beams};
 use crate::structure::frame::Frame;
 use crate::structure::solve::SolveError;
-use crate::structure::strength::{Cut, Span, Strength, Utilisation, spans};
+use crate::structure::strength::{Cut, Span, Strength, Utilisation, check_strengths, spans};
 
 /// The most used member where a path ended, by the laws of the linear solution: forces are turned
 /// back with each part of a member. `frame` is the one the path was followed with, each member of
@@ -25,12 +25,10 @@ pub fn utilisation(
     let count = frame.members().len();
     let given = path.local_end_forces.len().min(path.local_line_n_per_m.len());
     let wholes = count / parts;
-    if given != count || !count.is_multiple_of(parts) || strengths.len() != wholes {
+    if given != count || !count.is_multiple_of(parts) {
         return Err(SolveError::BadMember { member: strengths.len().min(wholes) });
     }
-    if let Some(member) = strengths.iter().position(|strength| !strength.is_usable()) {
-        return Err(SolveError::BadMember { member });
-    }
+    check_strengths(wholes, strengths)?;
     let beams = beams(frame);
     let mut worst: Option<Utilisation> = None;
     for (at, span) in spans(frame, &beams).iter().enumerate() {
