@@ -18,6 +18,10 @@ mod planted;
 #[cfg(test)]
 mod planted_process;
 #[cfg(test)]
+mod planted_structure;
+#[cfg(test)]
+mod planting;
+#[cfg(test)]
 mod reference;
 #[cfg(test)]
 mod reheated;

@@ -8,12 +8,7 @@
 
 mod jobs;
 
-use std::fs;
-use std::path::Path;
-
-use serde_json::Value;
-
-use crate::tools;
+use crate::planting::{self, Expected, Fault};
 
 /// A kind of fault; the number it takes is told with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,16 +51,6 @@ enum Kind {
     Idle,
     /// A strand far from the nozzle's axis: degrees.
     Leaning,
-}
-
-/// What must be found.
-struct Expected {
-    code: &'static str,
-    strand: &'static str,
-    /// The cause, as the message says it.
-    says: &'static str,
-    /// Range of the arc length, mm.
-    at_mm: Option<[f64; 2]>,
 }
 
 impl Kind {
@@ -117,7 +102,7 @@ impl Kind {
     }
 
     fn expected(self, x: f64) -> Expected {
-        let of = |code, strand, says, at_mm| Expected { code, strand, says, at_mm };
+        let of = |code, strand, says, at_mm| Expected { code, strand, says, at_mm, also: None };
         let start = Some([0.0, 0.5]);
         match self {
             Self::TooFast | Self::NoAir => {
@@ -146,97 +131,18 @@ impl Kind {
     }
 }
 
-/// Runs a job; its errors.
-fn errors(files: jobs::Files, folder: &Path) -> Result<Vec<Value>, String> {
-    for (name, text) in files {
-        fs::write(folder.join(name), text).expect("the temporary folder can be written");
-    }
-    let (ran, report) = tools::check(&folder.join("job.slam"), &folder.join("out"));
-    let report = report.ok_or_else(|| format!("no report: {}", ran.err))?;
-    let findings = report["findings"].as_array().cloned().unwrap_or_default();
-    Ok(findings.into_iter().filter(|finding| finding["severity"] == "error").collect())
-}
-
-fn told(findings: &[Value]) -> Vec<String> {
-    findings.iter().map(|f| format!("{} {} {}", f["code"], f["site"], f["message"])).collect()
-}
-
-/// By how much the limit is missed, one and more, by the finding that is expected.
-fn missed(kind: Kind, x: f64, folder: &Path) -> Result<f64, String> {
-    let errors =
-        errors(jobs::files(kind, x), folder).map_err(|why| format!("{kind:?} {x}: {why}"))?;
-    let expected = kind.expected(x);
-    let fits = |finding: &&Value| {
-        let at_m = finding.pointer("/site/at_m").and_then(Value::as_f64);
-        let within = |[low, high]: [f64; 2]| {
-            at_m.is_some_and(|at_m| (low - 1e-6..=high + 1e-6).contains(&(at_m * 1e3)))
-        };
-        finding["code"] == expected.code
-            && finding["site"]["strand"] == expected.strand
-            && finding["message"].as_str().is_some_and(|text| text.contains(expected.says))
-            && expected.at_mm.is_none_or(within)
-    };
-    let share = errors
-        .iter()
-        .find(fits)
-        .and_then(|finding| Some(finding["measured"].as_f64()? / finding["limit"].as_f64()?));
-    share
-        .map(|share| share.max(1.0 / share))
-        .ok_or_else(|| format!("{kind:?} {x}: not found; told were {:#?}", told(&errors)))
-}
-
-/// The number whose fault misses the limit by a share within `aim`, between a fault that misses it
-/// by more and a number that misses it by less or not at all: by halving its logarithm.
-fn aim(kind: Kind, from: [f64; 2], aim: [f64; 2], folder: &Path) -> Result<f64, String> {
-    const STEPS: usize = 14;
-    let [mut worse, mut better] = from;
-    for _ in 0..STEPS {
-        let x = (worse * better).sqrt();
-        match missed(kind, x, folder) {
-            Ok(share) if share > aim[1] => worse = x,
-            Ok(share) if share >= aim[0] => return Ok(x),
-            _ => better = x,
-        }
-    }
-    Err(format!("{kind:?}: none misses by {aim:?} between {worse} and {better}"))
-}
-
-/// Faults of a kind: the first ones deep, the others within ten percent of the limit.
-const DEEP: usize = 2;
-const NEAR: usize = 4;
-
-/// The faults of a kind that were found: by how much each misses its limit.
-fn plant(kind: Kind, folder: &Path) -> Result<Vec<f64>, String> {
-    fs::create_dir_all(folder).expect("the temporary folder can be written");
-    let sound = errors(jobs::sound(kind), folder)?;
-    if !sound.is_empty() {
-        return Err(format!("{kind:?}: errors without the fault: {:#?}", told(&sound)));
-    }
-    let [deep, none] = kind.range();
-    let far = aim(kind, [deep, none], [1.05, 1.098], folder)?;
-    let near = aim(kind, [far, none], [1.002, 1.035], folder)?;
-    let between = |from: f64, to: f64, share: f64| from * (to / from).powf(share);
-    let deep = (0..DEEP).map(|k| between(deep, far, k as f64 / DEEP as f64));
-    let near = (0..NEAR).map(|k| between(far, near, k as f64 / (NEAR - 1) as f64));
-    deep.chain(near).map(|x| missed(kind, x, folder)).collect()
-}
-
 #[test]
 fn a_hundred_planted_faults_of_the_process_are_found() {
-    let folder = tools::scratch("planted-process");
-    let planted: Vec<Result<Vec<f64>, String>> = std::thread::scope(|scope| {
-        let start = |kind: Kind| {
-            let folder = folder.join(format!("{kind:?}"));
-            scope.spawn(move || plant(kind, &folder))
-        };
-        let running: Vec<_> = Kind::ALL.into_iter().map(start).collect();
-        running.into_iter().map(|thread| thread.join().expect("no panic")).collect()
-    });
-    let problems: Vec<&String> = planted.iter().filter_map(|kind| kind.as_ref().err()).collect();
-    assert!(problems.is_empty(), "{problems:#?}");
-    let found: Vec<f64> = planted.into_iter().flatten().flatten().collect();
-    assert_eq!(found.len(), Kind::ALL.len() * (DEEP + NEAR));
-    assert!(found.len() >= 100, "{} planted", found.len());
-    let n_near = found.iter().filter(|share| **share < 1.1).count();
-    assert!(2 * n_near >= found.len() && n_near >= 50, "{n_near} within ten percent of a limit");
+    let faults: Vec<Fault> = Kind::ALL.into_iter().map(fault).collect();
+    planting::all_are_found("planted-process", &faults);
+}
+
+fn fault(kind: Kind) -> Fault {
+    Fault {
+        name: format!("{kind:?}"),
+        range: kind.range(),
+        sound: jobs::sound(kind),
+        files: Box::new(move |x| jobs::files(kind, x)),
+        expected: Box::new(move |x| kind.expected(x)),
+    }
 }

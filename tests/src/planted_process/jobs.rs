@@ -3,10 +3,8 @@
 use std::fs;
 
 use super::Kind;
+use crate::planting::Files;
 use crate::tools;
-
-/// Names and texts of what a job is made of.
-pub(super) type Files = Vec<(&'static str, String)>;
 
 /// The files of the job without the fault.
 pub(super) fn sound(kind: Kind) -> Files {

@@ -156,7 +156,7 @@ fn history(
         supports: supports.to_vec(),
         gravity_m_s2: file.gravity_m_s2,
         at_nodes: Vec::new(),
-        stiffness: Vec::new(),
+        ..Stage::default()
     };
     let stages: Vec<Stage> = (1..=file.sequence.len()).map(stage).collect();
     let ask = Ask { staged: true, ..Ask::default() };

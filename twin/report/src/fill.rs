@@ -7,16 +7,14 @@ use sim::kinematics;
 use sim::motion::{Printing, Spot, StrandMotion};
 use sim::pose::Vector;
 use sim::preflight::{Preflight, StrandResult};
-use sim::{growth, process};
+use sim::process;
 
 use crate::parts::{
     Assumption, Finding, Phase, Provenance, Report, Scores, Severity, Site, Timing, Totals, Verdict,
 };
-use crate::program;
-use crate::results::{
-    self, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand,
-};
+use crate::results::{self, Coverage, Ends, Motion, Nearest, Range, Strand};
 use crate::strands;
+use crate::{frame, program};
 
 impl Report {
     /// Everything a preflight found; `source` is the text of the job, for line numbers.
@@ -29,6 +27,7 @@ impl Report {
         timing: Timing,
     ) -> Self {
         let fill = Fill { preflight, job: preflight.job(), source };
+        let grown = &preflight.growth;
         let scores = preflight.scores();
         let family = |family| scores.family(family).and_then(number);
         Self {
@@ -48,10 +47,14 @@ impl Report {
             },
             findings: preflight.findings().iter().map(|each| fill.finding(each)).collect(),
             strands: fill.strands(),
-            stages: preflight.growth.stages.iter().map(|each| fill.stage(each)).collect(),
-            landings: preflight.growth.landings.iter().map(|each| fill.landing(each)).collect(),
+            stages: grown
+                .stages
+                .iter()
+                .map(|each| frame::stage(fill.job, &grown.built, each))
+                .collect(),
+            landings: grown.landings.iter().map(|each| frame::landing(fill.job, each)).collect(),
             motion: fill.motion(),
-            loads: preflight.growth.loads.iter().map(load).collect(),
+            loads: grown.loads.iter().map(|each| frame::load(fill.job, each)).collect(),
             totals: totals(&preflight.totals),
             assumptions: preflight.assumptions.iter().map(assumption).collect(),
             provenance,
@@ -220,32 +223,6 @@ impl Fill<'_> {
         }
     }
 
-    fn stage(&self, stage: &growth::StageResult) -> Stage {
-        Stage {
-            printed: stage.printed,
-            released: stage.released.map(|form| self.job.forms[form].id.clone()),
-            one_shot_m: stage.one_shot_m.and_then(number),
-            staged_m: stage.staged_m.and_then(number),
-            node: stage.node,
-            utilisation: stage.utilisation.and_then(number),
-            residual: number(stage.residual),
-        }
-    }
-
-    fn landing(&self, landing: &growth::Landing) -> Landing {
-        Landing {
-            strand: self.id(landing.strand),
-            at_end: landing.at_end,
-            node: landing.node,
-            frame_m: vector(&landing.frame_m),
-            shrinkage_m: vector(&landing.shrinkage_m),
-            push_m: vector(&landing.push_m),
-            push_length_m: range(landing.push_length_m),
-            sum_m: number(landing.sum_m),
-            accuracy_m: number(landing.accuracy_m),
-        }
-    }
-
     fn motion(&self) -> Motion {
         let nearest = self.preflight.nearest.as_ref();
         Motion {
@@ -270,17 +247,6 @@ impl Fill<'_> {
             hoses: program::hoses(self.job, &self.preflight.program),
             tracking: program::tracking(&self.preflight.program),
         }
-    }
-}
-
-fn load(load: &growth::LoadResult) -> LoadCase {
-    let solved = load.fault.is_none();
-    LoadCase {
-        name: load.name.clone(),
-        deflection_m: solved.then_some(load.deflection_m).and_then(number),
-        first_yield: load.first_yield.and_then(number),
-        buckling_factor: load.buckling.and_then(number),
-        fault: load.fault.map(|fault| fault.to_string()),
     }
 }
 
@@ -331,6 +297,6 @@ pub(crate) fn range(interval: Interval) -> Range {
     }
 }
 
-fn vector(vector: &Vector) -> Option<[f64; 3]> {
+pub(crate) fn vector(vector: &Vector) -> Option<[f64; 3]> {
     vector.iter().all(|value| value.is_finite()).then(|| [vector.x, vector.y, vector.z])
 }

@@ -1,5 +1,6 @@
 //! The report for a terminal.
 
+use crate::frame::{LoadCase, YieldCriterion};
 use crate::parts::{Finding, Phase, Report, Severity, Verdict};
 use crate::quantity::{Unit, against, clock, counted, digits};
 use crate::results::{Range, Strand};
@@ -162,7 +163,7 @@ fn size(range: &Range) -> f64 {
 
 fn frame(report: &Report, screen: &mut Screen) {
     screen.line("");
-    let worst = |of: fn(&crate::results::Stage) -> Option<f64>| {
+    let worst = |of: fn(&crate::frame::Stage) -> Option<f64>| {
         let known = report.stages.iter().filter_map(|stage| Some((stage.printed, of(stage)?)));
         known.reduce(|worst, next| if next.1 > worst.1 { next } else { worst })
     };
@@ -175,10 +176,9 @@ fn frame(report: &Report, screen: &mut Screen) {
         screen
             .line(&format!("frame      moves {value} by its weight, worst after {after}{staged}"));
     }
+    used(report, screen);
     for load in &report.loads {
-        let yields = load.first_yield.map_or_else(String::new, |factor| {
-            format!(", first yield at {} times the load", digits(factor))
-        });
+        let yields = first_yield(load);
         let buckles = load
             .buckling_factor
             .map_or_else(String::new, |factor| format!(", buckling at {}", digits(factor)));
@@ -200,6 +200,49 @@ fn frame(report: &Report, screen: &mut Screen) {
     } else {
         screen.line("clearance  nothing comes within twice the limit of anything");
     }
+}
+
+/// The most used member and node of all stages, and the least buckling factor.
+fn used(report: &Report, screen: &mut Screen) {
+    let most = |of: fn(&crate::frame::Stage) -> Option<f64>| {
+        report.stages.iter().filter_map(of).reduce(f64::max)
+    };
+    let percent = |share: Option<f64>| share.map(|share| format!("{} %", digits(share * 100.0)));
+    let (members, nodes) = (
+        percent(most(|stage| stage.member_utilisation)),
+        percent(most(|stage| stage.node_utilisation)),
+    );
+    let least = report.stages.iter().filter_map(|stage| stage.buckling_factor).reduce(f64::min);
+    let told: Vec<String> = [
+        members.map(|share| format!("members to {share} of their strength")),
+        nodes.map(|share| format!("nodes to {share}")),
+        least.map(|factor| format!("buckling at {} times what it carries", digits(factor))),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if !told.is_empty() {
+        screen.line(&format!("strength   while printing {}", told.join(", ")));
+    }
+}
+
+/// First yield as computed, by what, and what that is worth.
+fn first_yield(load: &LoadCase) -> String {
+    let judged = load.yields.iter().filter(|it| it.criterion != YieldCriterion::Axial);
+    let first = judged.filter_map(|it| Some((it.factor?, it))).min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((factor, first)) = first else { return String::new() };
+    let strand = first.strand.as_deref().unwrap_or("?");
+    let what = match first.criterion {
+        YieldCriterion::Node => format!("a node of `{strand}`"),
+        _ => format!("`{strand}`"),
+    };
+    let range = match (first.expected.value, first.expected.low, first.expected.high) {
+        (Some(value), Some(low), Some(high)) => {
+            format!(" (expect {}, {} to {})", digits(value), digits(low), digits(high))
+        }
+        _ => String::new(),
+    };
+    format!(", first yield of {what} at {} times the load{range}", digits(factor))
 }
 
 fn totals(report: &Report, screen: &mut Screen) {

@@ -6,6 +6,7 @@
 //! same bytes but for `provenance` and `timing`.
 
 mod fill;
+mod frame;
 mod human;
 mod parts;
 mod plots;
@@ -21,6 +22,7 @@ mod tests;
 #[cfg(test)]
 mod tests_human;
 
+pub use frame::{Landing, LoadCase, Remedy, Stage, Yield, YieldCriterion};
 pub use human::human;
 pub use parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
@@ -28,9 +30,7 @@ pub use parts::{
 };
 pub use plots::strands_page;
 pub use program::{Budget, Cycle, Hose, Payload, Share, TcpSpeed, Tracking};
-pub use results::{
-    Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion, WorstAt,
-};
+pub use results::{Coverage, Ends, Motion, Nearest, Range, Strand, StrandMotion, WorstAt};
 
 /// Value of `schema` in every report this version writes.
 pub const SCHEMA: &str = "twin-report/1";

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::results::{Landing, LoadCase, Motion, Stage, Strand};
+use crate::frame::{Landing, LoadCase, Stage};
+use crate::results::{Motion, Strand};
 
 /// Everything the twin says about a job. SI; a number that is not there or not finite is null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

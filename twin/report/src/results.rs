@@ -1,4 +1,4 @@
-//! The parts of a report that tell results: strands, stages, landings, motion, loads.
+//! The parts of a report that tell results: strands and motion; the frame is in `frame`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -206,50 +206,6 @@ pub struct WorstAt {
     pub shoulder_m: f64,
 }
 
-/// The frame at one moment.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Stage {
-    /// Number of strands printed.
-    pub printed: usize,
-    /// The form just released, if this stage is a release.
-    pub released: Option<String>,
-    /// Largest displacement, gravity on the frame as it stands so far, m; null: nothing solved.
-    pub one_shot_m: Option<f64>,
-    /// Largest displacement when each strand is born stress-free on the frame as it then stands, m.
-    pub staged_m: Option<f64>,
-    /// Node of the largest one-shot displacement.
-    pub node: Option<usize>,
-    /// Largest share of strength used, one-shot.
-    pub utilisation: Option<f64>,
-    /// Forces left out of balance relative to the loads, one-shot.
-    pub residual: Option<f64>,
-}
-
-/// What moves a node that a strand begins or ends on, each part by itself, in part axes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Landing {
-    /// The strand that lands.
-    pub strand: String,
-    /// Whether it is its end rather than its start.
-    pub at_end: bool,
-    /// The node.
-    pub node: usize,
-    /// Displacement by gravity, m.
-    pub frame_m: Option<[f64; 3]>,
-    /// Displacement by shrinkage, m.
-    pub shrinkage_m: Option<[f64; 3]>,
-    /// Displacement by the nozzle's push, m.
-    pub push_m: Option<[f64; 3]>,
-    /// Length of the push, m.
-    pub push_length_m: Range,
-    /// Length of the sum of the three, m.
-    pub sum_m: Option<f64>,
-    /// Accuracy of the arm, m; of unknown direction.
-    pub accuracy_m: Option<f64>,
-}
-
 /// The motion as a whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -302,21 +258,4 @@ pub enum Coverage {
     Complete,
     /// What a numerical search found.
     Sampled,
-}
-
-/// What a load case came to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LoadCase {
-    /// Its name.
-    pub name: String,
-    /// Largest displacement of a node under weight and forces, m; null: not solved.
-    pub deflection_m: Option<f64>,
-    /// Factor on the forces at which the first member yields; null: not found.
-    pub first_yield: Option<f64>,
-    /// Factor on weight and forces together at which the frame, were it perfect, would buckle; null: at none, or not
-    /// found. Held against nothing yet.
-    pub buckling_factor: Option<f64>,
-    /// Why the case could not be solved, if it could not.
-    pub fault: Option<String>,
 }

@@ -1,13 +1,13 @@
 //! A small report made by hand.
 
+use crate::frame::{Landing, LoadCase, Stage};
 use crate::parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
     Timing, Totals, Verdict,
 };
 use crate::program::{Cycle, Payload, Share};
 use crate::results::{
-    Ageing, Coverage, Ends, Landing, LoadCase, Motion, Nearest, Range, Stage, Strand, StrandMotion,
-    WorstAt,
+    Ageing, Coverage, Ends, Motion, Nearest, Range, Strand, StrandMotion, WorstAt,
 };
 
 fn range(nominal: f64, low: f64, high: f64) -> Range {
@@ -146,12 +146,20 @@ pub(crate) fn report() -> Report {
         findings: vec![too_near(), near_stop()],
         strands: vec![strand("s3", 2e-4), strand("s7", 4.2e-4)],
         stages: vec![Stage {
+            strand: Some("s7".to_owned()),
             printed: 2,
             released: None,
             one_shot_m: Some(1.2e-4),
+            one_shot_node: Some(3),
             staged_m: Some(8e-5),
+            staged_node: Some(3),
+            states_m: [Some(8e-5), Some(4e-4), None],
+            buckling_factor: Some(45.0),
+            followed_factor: None,
+            member_utilisation: Some(0.02),
+            member: Some(2),
+            node_utilisation: Some(0.05),
             node: Some(3),
-            utilisation: Some(0.02),
             residual: Some(1e-12),
         }],
         landings: vec![Landing {
@@ -160,10 +168,13 @@ pub(crate) fn report() -> Report {
             node: 3,
             frame_m: Some([0.0, 0.0, -8e-5]),
             shrinkage_m: Some([0.0; 3]),
+            sag_m: Some([0.0, 0.0, -1e-5]),
+            weight_m: Some([0.0; 3]),
             push_m: Some([0.0, 0.0, -3e-4]),
             push_length_m: range(3e-4, 1e-4, 9e-4),
-            sum_m: Some(3.8e-4),
+            sum_m: Some(3.9e-4),
             accuracy_m: Some(5e-4),
+            remedies: Vec::new(),
         }],
         motion: Motion {
             total_s: Some(3723.4),
@@ -198,7 +209,9 @@ pub(crate) fn report() -> Report {
             name: "seat".to_owned(),
             deflection_m: Some(2.4e-3),
             first_yield: Some(3.2),
+            yields: Vec::new(),
             buckling_factor: Some(8.5),
+            followed_factor: None,
             fault: None,
         }],
         totals: Totals {

@@ -93,7 +93,7 @@ fn stages(frame: &Frame, ground: usize) -> Vec<Stage> {
         supports: (0..ground).map(Support::clamped).collect(),
         gravity_m_s2: DOWN,
         at_nodes: Vec::new(),
-        stiffness: Vec::new(),
+        ..Stage::default()
     };
     (1..=frame.members().len()).map(stage).collect()
 }
@@ -234,7 +234,7 @@ fn bench(criterion: &mut Criterion) {
         let frame = tower(nodes, members);
         assert_eq!(frame.members().len(), members);
         let stages = stages(&frame, 7);
-        let strength = Strength { tension_pa: 4e7, compression_pa: 6e7, bond_fraction: 0.5 };
+        let strength = Strength { tension_pa: 4e7, compression_pa: 6e7 };
         let strengths = vec![strength; members];
         let one_shot = Ask::default();
         let all = Ask { staged: true, strengths: &strengths, keep: &[] };

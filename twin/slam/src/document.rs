@@ -366,6 +366,12 @@ pub struct Limits {
     pub sag_mm: Option<Spanned<f64>>,
     /// Largest deflection of the finished part under its loads, mm.
     pub deflection_mm: Option<Spanned<f64>>,
+    /// Largest share of the strength of a member or node while printing, percent.
+    pub strength_percent: Option<Spanned<f64>>,
+    /// Least factor on what the growing frame carries at which it buckles.
+    pub buckling_factor: Option<Spanned<f64>>,
+    /// Least factor on the loads at which the finished part yields or collapses.
+    pub load_factor: Option<Spanned<f64>>,
     /// Largest difference of the TCP's speed from the asked one, percent.
     pub speed_band_percent: Option<Spanned<f64>>,
     /// Longest the program may take, s.

@@ -340,6 +340,12 @@ pub struct Limits {
     pub set_distance_m: f64,
     /// Largest deflection of the finished part under its loads, m.
     pub deflection_m: f64,
+    /// Largest share of the strength of a member or node while printing.
+    pub strength_share: f64,
+    /// Least factor on what the growing frame carries at which it buckles.
+    pub buckling_factor: f64,
+    /// Least factor on the loads at which the finished part yields or collapses.
+    pub load_factor: f64,
     /// Share of a strand's radius left uncured that warns, and that stops.
     pub uncured_share: [f64; 2],
     /// Largest difference of the TCP's speed from the asked one, as a share of it.

@@ -391,6 +391,13 @@ impl Resolver<'_> {
             node_miss_m: pick(asked.node_miss_mm, default.node_miss_m),
             sag_m: pick(asked.sag_mm, default.sag_m),
             deflection_m: pick(asked.deflection_mm, default.deflection_m),
+            strength_share: asked
+                .strength_percent
+                .map_or(default.strength_share, |percent| percent.value / 100.0),
+            buckling_factor: asked
+                .buckling_factor
+                .map_or(default.buckling_factor, |factor| factor.value),
+            load_factor: asked.load_factor.map_or(default.load_factor, |factor| factor.value),
             speed_band: asked
                 .speed_band_percent
                 .map_or(default.speed_band, |percent| percent.value / 100.0),

@@ -33,7 +33,7 @@ impl Contact {
 const TOUCH_SHARE: f64 = 1.1;
 
 /// Contacts of two strands that lie alongside each other are this many diameters apart.
-const ALONGSIDE_DIAMETERS: f64 = 2.0;
+pub const ALONGSIDE_DIAMETERS: f64 = 2.0;
 
 /// All contacts between different strands, by later strand, then earlier, then place.
 ///

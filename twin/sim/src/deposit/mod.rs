@@ -6,7 +6,7 @@ mod index;
 #[cfg(test)]
 mod tests;
 
-pub use contact::{Contact, closest, contacts};
+pub use contact::{ALONGSIDE_DIAMETERS, Contact, closest, contacts};
 pub use index::Index;
 
 use crate::pose::{Point, Vector};
@@ -33,9 +33,24 @@ pub struct Printed {
 impl Printed {
     /// The planned point at an arc length.
     pub fn planned_at(&self, at_m: f64) -> Point {
+        self.between(&self.as_planned, at_m)
+    }
+
+    /// The point as printed that was planned at an arc length.
+    pub fn printed_at(&self, at_m: f64) -> Point {
+        self.between(&self.as_printed, at_m)
+    }
+
+    fn between(&self, points: &[Point], at_m: f64) -> Point {
         let k = self.at_m.partition_point(|&x| x < at_m).clamp(1, self.at_m.len() - 1);
         let share = (at_m - self.at_m[k - 1]) / (self.at_m[k] - self.at_m[k - 1]);
-        self.as_planned[k - 1] + (self.as_planned[k] - self.as_planned[k - 1]) * share
+        points[k - 1] + (points[k] - points[k - 1]) * share
+    }
+
+    /// Direction of its axis as printed at an arc length, unit.
+    pub fn direction_at(&self, at_m: f64) -> Vector {
+        let k = self.at_m.partition_point(|&x| x < at_m).clamp(1, self.at_m.len() - 1);
+        (self.as_printed[k] - self.as_printed[k - 1]).normalize()
     }
 
     /// Length of the strand, m.

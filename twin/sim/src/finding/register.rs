@@ -87,7 +87,12 @@ pub enum Code {
     P311,
     S401,
     S402,
+    S403,
+    S404,
+    S405,
     S406,
+    S407,
+    S408,
     E501,
     E502,
     E504,
@@ -97,7 +102,7 @@ pub enum Code {
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 40] = [
         Self::R101,
         Self::R102,
         Self::R103,
@@ -127,7 +132,12 @@ impl Code {
         Self::P311,
         Self::S401,
         Self::S402,
+        Self::S403,
+        Self::S404,
+        Self::S405,
         Self::S406,
+        Self::S407,
+        Self::S408,
         Self::E501,
         Self::E502,
         Self::E504,
@@ -167,7 +177,12 @@ impl Code {
             Self::P311 => "P311",
             Self::S401 => "S401",
             Self::S402 => "S402",
+            Self::S403 => "S403",
+            Self::S404 => "S404",
+            Self::S405 => "S405",
             Self::S406 => "S406",
+            Self::S407 => "S407",
+            Self::S408 => "S408",
             Self::E501 => "E501",
             Self::E502 => "E502",
             Self::E504 => "E504",
@@ -222,7 +237,12 @@ impl Code {
             Self::P311 => "prime, overrun or dwell missing",
             Self::S401 => "node is not where the nozzle expects it",
             Self::S402 => "strand printed on nothing",
+            Self::S403 => "member strained too far while printing",
+            Self::S404 => "growing frame near buckling",
+            Self::S405 => "node strained too far while printing",
             Self::S406 => "finished part gives way under its loads",
+            Self::S407 => "finished part yields under its loads",
+            Self::S408 => "finished part collapses under its loads",
             Self::E501 => "too much on the flange",
             Self::E502 => "hose pulled or twisted too far",
             Self::E504 => "program takes too long",
@@ -243,7 +263,10 @@ impl Code {
             | Self::C205
             | Self::C206
             | Self::P310
-            | Self::P311 => Bound::Lower,
+            | Self::P311
+            | Self::S404
+            | Self::S407
+            | Self::S408 => Bound::Lower,
             _ => Bound::Upper,
         }
     }
@@ -259,6 +282,11 @@ impl Code {
             | Self::R108
             | Self::C207
             | Self::S402
+            | Self::S403
+            | Self::S404
+            | Self::S405
+            | Self::S407
+            | Self::S408
             | Self::C208
             | Self::P302
             | Self::P307

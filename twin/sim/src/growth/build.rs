@@ -2,53 +2,15 @@
 //!
 //! A strand becomes members between its *stations*: the corners of its polyline as planned (at
 //! their places as printed), its contacts, its ends. Ends within half a bead of each other become one node, as do contacts whose axes
-//! meet; other contacts become links, short weightless members with the section of the bead.
+//! meet; other contacts become links, short weightless members with the softness of the patch of contact.
 
+use super::Printed;
+use super::strand_law::StrandLaw;
+use super::welds::{Bond, Joined, patch_m2, welds};
 use crate::cell::{Job, Join, On};
 use crate::deposit::{Contact, Deposit};
 use crate::pose::Point;
-use crate::structure::{Elastic, Frame, Member, Section, Strength, Support};
-
-/// What the structure needs to know about a strand.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StrandLaw {
-    /// Diameter of the set bead, m.
-    pub diameter_m: f64,
-    /// Share of the section that carries (uncured cores do not).
-    pub area_fraction: f64,
-    /// Share of the bending stiffness that is there.
-    pub stiffness_fraction: f64,
-    /// Young's modulus, Pa.
-    pub e_pa: f64,
-    /// Poisson's ratio.
-    pub poisson: f64,
-    /// Density, kg/m³.
-    pub density_kg_m3: f64,
-    /// Strain the strand would still have if both its ends were free; shrinkage is negative.
-    pub strain: f64,
-    /// Strength along the strand, Pa.
-    pub strength_pa: f64,
-    /// Strength of a bond over that of the strand.
-    pub bond_fraction: f64,
-}
-
-impl StrandLaw {
-    fn section(&self) -> Section {
-        let full = Section::circle(self.diameter_m);
-        Section {
-            area_m2: full.area_m2 * self.area_fraction,
-            iy_m4: full.iy_m4 * self.stiffness_fraction,
-            iz_m4: full.iz_m4 * self.stiffness_fraction,
-            j_m4: full.j_m4 * self.stiffness_fraction,
-            ..full
-        }
-        .sheared(Section::cowper_circle(self.poisson))
-    }
-
-    fn elastic(&self) -> Elastic {
-        Elastic::isotropic(self.e_pa, self.poisson)
-    }
-}
+use crate::structure::{At, Frame, Member, Strength, Support, Weld};
 
 /// The frame of a print.
 #[derive(Debug, Clone)]
@@ -65,6 +27,14 @@ pub struct Built {
     pub grounded: Vec<(usize, usize)>,
     /// Nodes held by a form: node, order, form.
     pub formed: Vec<(usize, usize, usize)>,
+    /// What holds strands together, nominal.
+    pub welds: Vec<Weld>,
+    /// The contact of each weld.
+    pub weld_contact: Vec<usize>,
+    /// Members that are links between two axes.
+    pub is_link: Vec<bool>,
+    /// By order: contacts with earlier strands by which it is joined.
+    contacts: Vec<Vec<usize>>,
 }
 
 impl Built {
@@ -95,14 +65,18 @@ impl Built {
             .expect("a sound frame with sound constants")
     }
 
-    /// Strength of each member.
+    /// Contacts with earlier strands by which a strand is joined.
+    pub(super) fn contacts_of(&self, order: usize) -> &[usize] {
+        &self.contacts[order]
+    }
+
+    /// Strength of each member. A link is judged as a weld, not as a strand: nothing strains it too far.
     pub fn strengths(&self, laws: &[StrandLaw]) -> Vec<Strength> {
-        let strength = |order: &usize| Strength {
-            tension_pa: laws[*order].strength_pa,
-            compression_pa: laws[*order].strength_pa,
-            bond_fraction: laws[*order].bond_fraction,
+        let strength = |(order, is_link): (&usize, &bool)| {
+            let pa = if *is_link { NEVER_PA } else { laws[*order].strength_pa };
+            Strength { tension_pa: pa, compression_pa: pa }
         };
-        self.member_order.iter().map(strength).collect()
+        self.member_order.iter().zip(&self.is_link).map(strength).collect()
     }
 
     /// The earliest strand (by order) that has a member at this node.
@@ -111,6 +85,9 @@ impl Built {
         self.frame.members().iter().position(at).map(|member| self.member_order[member])
     }
 }
+
+/// A strength that nothing reaches, Pa.
+const NEVER_PA: f64 = 1e300;
 
 /// Stations nearer than this share of a radius are one.
 const SAME_SHARE: f64 = 0.2;
@@ -126,7 +103,8 @@ struct Touch {
 }
 
 /// Builds the frame of a whole print.
-pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandLaw]) -> Built {
+pub fn build(job: &Job, printed: &Printed<'_>) -> Built {
+    let &Printed { deposit, contacts, laws, bonds, .. } = printed;
     let mut touches: Vec<Vec<Touch>> = vec![Vec::new(); deposit.strands.len()];
     for (contact, each) in contacts.iter().enumerate() {
         if is_refused(job, deposit, each) {
@@ -141,6 +119,7 @@ pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandL
         deposit,
         laws,
         contacts,
+        bonds,
         contact_nodes: vec![[None; 2]; contacts.len()],
         nodes: Vec::new(),
         members: Vec::new(),
@@ -149,14 +128,28 @@ pub fn build(job: &Job, deposit: &Deposit, contacts: &[Contact], laws: &[StrandL
         born: vec![0],
         grounded: Vec::new(),
         formed: Vec::new(),
+        links: Vec::new(),
+        is_link: Vec::new(),
+        joints: Vec::new(),
     };
     for (order, touches) in touches.iter_mut().enumerate() {
         touches.sort_by(|a, b| a.at_m.total_cmp(&b.at_m).then(a.contact.cmp(&b.contact)));
         builder.strand(order, touches);
     }
+    builder.is_link.resize(builder.members.len(), false);
+    let mut by_order = vec![Vec::new(); deposit.strands.len()];
+    let joined: Vec<Joined> = builder.links.into_iter().chain(builder.joints).collect();
     let frame =
         Frame::new(builder.nodes, builder.members).expect("stations are apart and laws are sound");
+    let (welds, weld_contact) = welds(&frame, printed, &joined);
+    for &contact in &weld_contact {
+        by_order[contacts[contact].orders[0]].push(contact);
+    }
     Built {
+        contacts: by_order,
+        is_link: builder.is_link,
+        welds,
+        weld_contact,
         frame,
         born: builder.born,
         ends: builder.built_ends,
@@ -182,6 +175,7 @@ struct Builder<'a> {
     deposit: &'a Deposit,
     laws: &'a [StrandLaw],
     contacts: &'a [Contact],
+    bonds: &'a [Bond],
     /// Node of each contact on each of its sides, once known.
     contact_nodes: Vec<[Option<usize>; 2]>,
     nodes: Vec<Point>,
@@ -191,15 +185,20 @@ struct Builder<'a> {
     born: Vec<usize>,
     grounded: Vec<(usize, usize)>,
     formed: Vec<(usize, usize, usize)>,
+    links: Vec<Joined>,
+    joints: Vec<Joined>,
+    is_link: Vec<bool>,
 }
 
 impl Builder<'_> {
     fn strand(&mut self, order: usize, touches: &[Touch]) {
         let stations = self.stations(order, touches);
         let mut nodes: Vec<usize> = Vec::with_capacity(stations.len());
+        let mut merged: Vec<Option<usize>> = Vec::with_capacity(stations.len());
         for station in &stations {
-            let node = self.node(order, station, nodes.last().copied());
+            let (node, by) = self.node(order, station, nodes.last().copied());
             nodes.push(node);
+            merged.push(by);
         }
         let law = &self.laws[order];
         let member = |ends: [usize; 2]| Member {
@@ -211,13 +210,26 @@ impl Builder<'_> {
             side: nalgebra::Vector3::zeros(),
             strand: self.deposit.strands[order].strand,
         };
-        let members: Vec<Member> = nodes
-            .windows(2)
-            .filter(|pair| pair[0] != pair[1] && self.nodes[pair[0]] != self.nodes[pair[1]])
-            .map(|pair| member([pair[0], pair[1]]))
-            .collect();
-        self.member_order.extend(members.iter().map(|_| order));
-        self.members.extend(members);
+        let mut joints: Vec<Joined> = Vec::new();
+        for (at, &node) in nodes.iter().enumerate() {
+            let mut through = Vec::new();
+            if at > 0
+                && self.members.last().is_some_and(|last| last.ends[1] == node)
+                && self.member_order.last() == Some(&order)
+            {
+                through.push((self.members.len() - 1, At::Last));
+            }
+            let next = nodes.get(at + 1).copied();
+            if let Some(next) = next.filter(|&next| self.nodes[next] != self.nodes[node]) {
+                through.push((self.members.len(), At::First));
+                self.members.push(member([node, next]));
+                self.member_order.push(order);
+            }
+            if let Some(contact) = merged[at] {
+                joints.push(Joined { node, contact, through });
+            }
+        }
+        self.joints.extend(joints);
         self.links(order, touches);
         self.hold(order, &nodes);
         self.born.push(self.members.len());
@@ -267,26 +279,35 @@ impl Builder<'_> {
         if is_end { printed.radius_m.max(same_m) } else { same_m }
     }
 
-    /// The node of a station: that of the other side of a contact whose axes meet, or a new one.
-    fn node(&mut self, order: usize, station: &Station, before: Option<usize>) -> usize {
+    /// The node of a station: that of the other side of a contact whose axes meet (and that contact), or a
+    /// new one.
+    fn node(
+        &mut self,
+        order: usize,
+        station: &Station,
+        before: Option<usize>,
+    ) -> (usize, Option<usize>) {
         let radius_m = self.deposit.strands[order].radius_m;
-        let mut merged = None;
+        let mut merged: Option<(usize, usize)> = None;
         for touch in &station.touches {
             if let Some(other) = self.contact_nodes[touch.contact][1 - touch.side] {
                 let apart_m = (self.nodes[other] - station.point).norm();
                 if merged.is_none() && apart_m <= radius_m && Some(other) != before {
-                    merged = Some(other);
+                    merged = Some((other, touch.contact));
                 }
             }
         }
-        let node = merged.unwrap_or_else(|| {
-            self.nodes.push(station.point);
-            self.nodes.len() - 1
-        });
+        let node = merged.map_or_else(
+            || {
+                self.nodes.push(station.point);
+                self.nodes.len() - 1
+            },
+            |(node, _)| node,
+        );
         for touch in &station.touches {
             self.contact_nodes[touch.contact][touch.side] = Some(node);
         }
-        node
+        (node, merged.map(|(_, contact)| contact))
     }
 
     /// Links for contacts of this strand with earlier ones whose nodes did not become one.
@@ -300,9 +321,11 @@ impl Builder<'_> {
             if a == b || recent || length_m <= 0.0 {
                 continue;
             }
+            let through = vec![(self.members.len(), At::Middle)];
+            self.links.push(Joined { node: a, contact: touch.contact, through });
             self.members.push(Member {
                 ends: [a, b],
-                section: law.section(),
+                section: law.link(patch_m2(&self.bonds[touch.contact], law.diameter_m), length_m),
                 elastic: law.elastic(),
                 density_kg_m3: 0.0,
                 initial_strain: 0.0,
@@ -310,6 +333,8 @@ impl Builder<'_> {
                 strand: self.deposit.strands[order].strand,
             });
             self.member_order.push(order);
+            self.is_link.resize(self.members.len() - 1, false);
+            self.is_link.push(true);
         }
     }
 

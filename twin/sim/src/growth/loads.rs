@@ -1,12 +1,14 @@
 //! The finished part under its loads.
 
-use super::Built;
+use super::{Built, Printed, imperfect};
 use crate::cell::{Job, LoadCase};
 use crate::finding::{Check, Code, Findings, Site, Words};
+use crate::interval::Interval;
 use crate::pose::{Point, Vector};
+use crate::process::Setting;
 use crate::structure::{
-    BucklingAsk, Frame, Load, Mode, NodeLoad, SolveError, Strength, Support, buckling,
-    first_yield_factor, solve,
+    At, BucklingAsk, Criterion, FirstYield, Frame, Held, Load, Mode, NodeLoad, SolveError,
+    Strength, Support, Weld, first_yield, model_factor,
 };
 
 /// What a load case came to.
@@ -16,18 +18,49 @@ pub struct LoadResult {
     pub name: String,
     /// Largest displacement of a node under weight and forces, m.
     pub deflection_m: f64,
-    /// Factor on the forces at which the first member yields; `None`: it could not be found.
-    pub first_yield: Option<f64>,
+    /// Factors on the forces at which the first member or weld is used up, by criterion; `None`: not found.
+    pub yields: Option<[Yield; 3]>,
     /// Factor on weight and forces together at which the frame, were it perfect, would buckle; infinite: at none;
     /// `None`: it could not be found. Two parts per member.
     pub buckling: Option<f64>,
+    /// The same followed with large displacements and an imperfection, where the perfect factor is below 4.
+    pub followed: Option<f64>,
     /// Why the case could not be solved, if it could not.
     pub fault: Option<SolveError>,
+}
+
+/// First yield by one criterion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Yield {
+    /// By what.
+    pub criterion: Criterion,
+    /// Factor on the forces as computed; infinite: at none.
+    pub factor: f64,
+    /// The same with what such predictions are worth.
+    pub expected: Interval,
+    /// The strand (index in the job) of the member, or the younger one of the weld.
+    pub strand: Option<usize>,
+    /// The node of the weld.
+    pub node: Option<usize>,
+}
+
+impl LoadResult {
+    /// The first yield that is judged: of outermost fibres or nodes, whichever comes first.
+    pub fn first_yield(&self) -> Option<&Yield> {
+        let judged = self.yields.iter().flatten().filter(|it| it.criterion != Criterion::Axial);
+        judged.min_by(|a, b| a.factor.total_cmp(&b.factor))
+    }
+
+    /// The factor at which it gives way altogether.
+    pub fn collapse(&self) -> Option<f64> {
+        self.followed.or(self.buckling)
+    }
 }
 
 /// Solves and judges every load case of a job.
 pub(super) fn solve_all(
     job: &Job,
+    printed: &Printed<'_>,
     built: &Built,
     strengths: &[Strength],
     findings: &mut Findings,
@@ -35,15 +68,25 @@ pub(super) fn solve_all(
     job.loads
         .iter()
         .map(|case| {
-            let result = solve_case(job, built, strengths, case);
-            judge(job, &result, findings);
+            let result = solve_case(job, printed, built, strengths, case);
+            judge(job, built, &result, findings);
             result
         })
         .collect()
 }
 
-fn solve_case(job: &Job, built: &Built, strengths: &[Strength], case: &LoadCase) -> LoadResult {
-    let mut seats = Seats { frame: built.weightless_strain(), strengths: strengths.to_vec() };
+fn solve_case(
+    job: &Job,
+    printed: &Printed<'_>,
+    built: &Built,
+    strengths: &[Strength],
+    case: &LoadCase,
+) -> LoadResult {
+    let mut seats = Seats {
+        frame: built.weightless_strain(),
+        strengths: strengths.to_vec(),
+        welds: built.welds.clone(),
+    };
     let supports: Vec<Support> = case
         .supports
         .iter()
@@ -59,56 +102,102 @@ fn solve_case(job: &Job, built: &Built, strengths: &[Strength], case: &LoadCase)
         .collect();
     let gravity: [f64; 3] =
         job.gravity_in_part(&job.cell.robot.arm.chain.forward(&job.cell.home)).into();
-    match under(&case.name, &seats, &supports, forces, gravity) {
-        Ok(result) => result,
-        Err(fault) => LoadResult {
-            name: case.name.clone(),
-            deflection_m: 0.0,
-            first_yield: None,
-            buckling: None,
-            fault: Some(fault),
+    let nothing = LoadResult {
+        name: case.name.clone(),
+        deflection_m: 0.0,
+        yields: None,
+        buckling: None,
+        followed: None,
+        fault: None,
+    };
+    match under(&seats, &supports, forces, gravity) {
+        Ok(answer) => LoadResult {
+            deflection_m: answer.deflection_m,
+            yields: answer
+                .yields
+                .map(|yields| yields.map(|found| expected(job, printed, built, &seats, &found))),
+            buckling: answer.buckling,
+            followed: answer.followed,
+            ..nothing
         },
+        Err(fault) => LoadResult { fault: Some(fault), ..nothing },
     }
 }
 
+struct Answer {
+    deflection_m: f64,
+    yields: Option<[FirstYield; 3]>,
+    buckling: Option<f64>,
+    followed: Option<f64>,
+}
+
 fn under(
-    name: &str,
     seats: &Seats,
     supports: &[Support],
     forces: Vec<NodeLoad>,
     gravity: [f64; 3],
-) -> Result<LoadResult, SolveError> {
+) -> Result<Answer, SolveError> {
     let weight = Load { gravity_m_s2: gravity, ..Load::default() };
     let load = Load { at_nodes: forces, ..Load::default() };
-    let resting = solve(&seats.frame, supports, &weight)?;
-    let loaded = solve(&seats.frame, supports, &load)?;
+    let held = Held::new(&seats.frame, supports)?;
+    let (resting, loaded) = (held.solution(&weight)?, held.solution(&load)?);
     let moved = resting.displacement.iter().zip(&loaded.displacement);
     let deflection_m = moved
         .map(|(a, b)| Vector::new(a[0] + b[0], a[1] + b[1], a[2] + b[2]).norm())
         .fold(0.0, f64::max);
-    let factor = first_yield_factor(
-        &seats.frame,
-        &seats.strengths,
-        (&resting, gravity),
-        (&loaded, [0.0; 3]),
-    )
-    .ok();
+    let capacity = (seats.strengths.as_slice(), seats.welds.as_slice());
+    let yields = first_yield(&seats.frame, capacity, (&resting, gravity), (&loaded, [0.0; 3])).ok();
     let both = Load { gravity_m_s2: gravity, ..load };
-    let modes = buckling(&seats.frame, supports, &both, BucklingAsk::default());
-    let least = |modes: &[Mode]| modes.first().map_or(f64::INFINITY, |mode| mode.factor);
-    Ok(LoadResult {
-        name: name.to_owned(),
-        deflection_m,
-        first_yield: factor.filter(|factor| factor.is_finite()),
-        buckling: modes.ok().map(|modes| least(&modes)),
-        fault: None,
-    })
+    let modes = held.buckling(&both, BucklingAsk::default()).ok();
+    let least = |modes: &Vec<Mode>| modes.first().map_or(f64::INFINITY, |mode| mode.factor);
+    let buckling = modes.as_ref().map(least);
+    let is_near = buckling.is_some_and(|factor| factor < imperfect::TRUSTED);
+    let followed = if is_near { imperfect::followed(&seats.frame, supports, &both) } else { None };
+    Ok(Answer { deflection_m, yields, buckling, followed })
+}
+
+/// A first yield with what it is worth: by the model factor for thermoplastics, else by the strength alone; a node also by how
+/// well it has bonded.
+fn expected(
+    job: &Job,
+    printed: &Printed<'_>,
+    built: &Built,
+    seats: &Seats,
+    found: &FirstYield,
+) -> Yield {
+    let by_node = found.criterion == Criterion::Node;
+    let contact = found.at.filter(|_| by_node).map(|weld| built.weld_contact[weld]);
+    let strand = match contact {
+        Some(contact) => Some(printed.deposit.strands[printed.contacts[contact].orders[0]].strand),
+        None => found.at.map(|member| seats.frame.members()[member].strand),
+    };
+    let strength =
+        contact.map_or(job.material.strength_pa, |contact| printed.bonds[contact].tension_pa);
+    let range = |strength: Interval| {
+        Interval::new(1.0, strength.low / strength.nominal, strength.high / strength.nominal)
+    };
+    let worth = match (&job.material.setting, contact) {
+        (Setting::Thermoplastic(_), None) => model_factor(),
+        (Setting::Thermoplastic(_), Some(_)) => {
+            let (model, bond) = (model_factor(), range(strength));
+            Interval::new(model.nominal, model.low * bond.low, model.high * bond.high)
+        }
+        _ => range(strength),
+    };
+    Yield {
+        criterion: found.criterion,
+        factor: found.factor,
+        expected: worth.map(|worth| if worth > 0.0 { worth * found.factor } else { 0.0 }),
+        strand,
+        node: contact.and(found.at).map(|weld| built.welds[weld].node),
+    }
 }
 
 /// A frame that gets a node wherever a support or force sits.
 struct Seats {
     frame: Frame,
     strengths: Vec<Strength>,
+    welds: Vec<Weld>,
 }
 
 impl Seats {
@@ -134,6 +223,7 @@ impl Seats {
                     Ok((frame, node)) => {
                         self.frame = frame;
                         self.strengths.insert(member, self.strengths[member]);
+                        self.shift_welds(member);
                         node
                     }
                     Err(_) => node,
@@ -142,9 +232,18 @@ impl Seats {
             _ => node,
         }
     }
+
+    /// Members after the one that was cut have moved on by one; a weld at its last end is now on the second half.
+    fn shift_welds(&mut self, member: usize) {
+        for (of, at) in self.welds.iter_mut().flat_map(|weld| &mut weld.through) {
+            if *of > member || (*of == member && *at == At::Last) {
+                *of += 1;
+            }
+        }
+    }
 }
 
-fn judge(job: &Job, result: &LoadResult, findings: &mut Findings) {
+fn judge(job: &Job, built: &Built, result: &LoadResult, findings: &mut Findings) {
     if let Some(fault) = result.fault {
         findings.forbid(Code::S402, true, Site::default(), None, || Words {
             message: format!("load case `{}` cannot be solved: {fault}", result.name),
@@ -171,5 +270,54 @@ fn judge(job: &Job, result: &LoadResult, findings: &mut Findings) {
             result.deflection_m * 1e3
         ),
         hint: "add strands along the load path, or thicken them".to_owned(),
+    });
+    yields(job, built, result, findings);
+    collapses(job, result, findings);
+}
+
+/// S407.
+fn yields(job: &Job, built: &Built, result: &LoadResult, findings: &mut Findings) {
+    let Some(first) = result.first_yield().filter(|first| first.factor.is_finite()) else { return };
+    let site = Site {
+        strand: first.strand,
+        node: first.node,
+        point: first.node.map(|node| built.frame.nodes()[node]),
+        ..Site::default()
+    };
+    let (measured, limit) = (first.expected, job.limits.load_factor);
+    let check = Check { code: Code::S407, measured, limit, warn_limit: None, site, time_s: None };
+    findings.check(check, || {
+        let strand = first.strand.map_or("?", |strand| &job.strands[strand].id);
+        let what = match first.node {
+            Some(node) => format!("node {node}, where `{strand}` holds to the frame,"),
+            None => format!("strand `{strand}`"),
+        };
+        Words {
+            message: format!(
+                "load case `{}`: {what} is used up at {:.2} times the load; {:.2} ({:.2} to {:.2}) is what such predictions are worth",
+                result.name, first.factor, measured.nominal, measured.low, measured.high
+            ),
+            hint: if first.node.is_some() {
+                "enlarge the contact (press beads nearer together), or lead the load to other nodes".to_owned()
+            } else {
+                "add strands along the load path, or thicken them".to_owned()
+            },
+        }
+    });
+}
+
+/// S408.
+fn collapses(job: &Job, result: &LoadResult, findings: &mut Findings) {
+    let Some(factor) = result.collapse().filter(|factor| factor.is_finite()) else { return };
+    let e = job.material.youngs_modulus_pa;
+    let measured = e.map(|e_pa| factor * e_pa / e.nominal);
+    let (site, limit) = (Site::default(), job.limits.load_factor);
+    let check = Check { code: Code::S408, measured, limit, warn_limit: None, site, time_s: None };
+    findings.check(check, || Words {
+        message: format!(
+            "load case `{}` buckles the part at {factor:.2} times weight and load",
+            result.name
+        ),
+        hint: "shorten or thicken the members in compression, or brace them".to_owned(),
     });
 }

@@ -4,44 +4,32 @@
 //! The mechanics are in `structure`; here is what a print makes of them.
 
 mod build;
+mod imperfect;
 mod landing;
 mod loads;
+mod nozzle;
+mod part;
+mod remedy;
+mod stage;
+mod strand_law;
 #[cfg(test)]
 mod tests;
+mod welds;
 
-pub use build::{Built, StrandLaw, build};
+pub use build::{Built, build};
 pub use landing::Landing;
-pub use loads::LoadResult;
+pub use loads::{LoadResult, Yield};
+pub use remedy::{Change, Remedy};
+pub use stage::{StageResult, State, Used};
+pub use strand_law::StrandLaw;
+pub use welds::Bond;
 
 use crate::cell::Job;
 use crate::deposit::{Contact, Deposit};
 use crate::finding::{Code, Findings, Phase, Site, Words};
 use crate::motion::{Leg, Motion};
 use crate::pose::Vector;
-use crate::structure::{Ask, SolveError, Stage, StageRecord, Strength, solve_stages};
-
-/// Displacements of every node at every stage are kept up to this many numbers; beyond it the
-/// landing check (S401) is left out and the report says so.
-const KEEP_MAX: usize = 15_000_000;
-
-/// One stage of the print as the report tells it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StageResult {
-    /// Number of strands printed.
-    pub printed: usize,
-    /// The form just released, if this stage is a release.
-    pub released: Option<usize>,
-    /// Largest displacement, gravity on the frame as it stands so far, m; `None`: nothing solved.
-    pub one_shot_m: Option<f64>,
-    /// Largest displacement when each strand is born stress-free on the frame as it then stands, m.
-    pub staged_m: Option<f64>,
-    /// Node of the largest one-shot displacement.
-    pub node: Option<usize>,
-    /// Largest share of strength used, one-shot.
-    pub utilisation: Option<f64>,
-    /// Forces left out of balance relative to the loads, one-shot.
-    pub residual: f64,
-}
+use crate::structure::{Ask, NodeLoad, SolveError, Stage, StageRecord, solve_stages};
 
 /// What became of the frame.
 #[derive(Debug, Clone)]
@@ -54,8 +42,6 @@ pub struct Growth {
     pub landings: Vec<Landing>,
     /// One entry per load case.
     pub loads: Vec<LoadResult>,
-    /// Whether the frame was too large for the landing check.
-    pub landing_skipped: bool,
 }
 
 /// What is known about the deposit when its mechanics are asked for.
@@ -65,13 +51,22 @@ pub struct Printed<'a> {
     pub deposit: &'a Deposit,
     /// Where beads touch.
     pub contacts: &'a [Contact],
+    /// What holds there, in the same order.
+    pub bonds: &'a [Bond],
     /// Section, moduli and strain of each strand, in printing order.
     pub laws: &'a [StrandLaw],
     /// The motion, for gravity and releases.
     pub motion: &'a Motion,
 }
 
+/// Stages of which the buckling factor is asked, beside those that Euler's screen flags.
+const BUCKLING_STAGES: usize = 16;
+
 /// Solves every stage and load case, and judges them.
+///
+/// Two runs over the same stages, side by side: weight alone, which is what other programs give; and weight with the strain
+/// that shrinkage has locked in, which is what strains members and nodes. In the second the nozzle tries the frame at every
+/// landing ([`nozzle`]).
 ///
 /// # Errors
 /// A frame too large to index.
@@ -80,27 +75,37 @@ pub fn grow(
     printed: &Printed<'_>,
     findings: &mut Findings,
 ) -> Result<Growth, SolveError> {
-    let built = build(job, printed.deposit, printed.contacts, printed.laws);
-    let plan = plan(job, printed, &built);
-    let strengths: Vec<Strength> = built.strengths(printed.laws);
-    let n_numbers = plan.len() * built.frame.nodes().len() * 12;
-    let landing_skipped = n_numbers > KEEP_MAX;
-    let keep: Vec<usize> = if landing_skipped { Vec::new() } else { (0..plan.len()).collect() };
+    let built = build(job, printed);
+    let mut plan = plan(job, printed, &built);
+    let comings = nozzle::comings(job, printed, &built, &mut plan);
     let stages: Vec<Stage> = plan.iter().map(|planned| planned.stage.clone()).collect();
-    let ask = Ask { staged: true, strengths: &strengths, keep: &keep };
-    let records = solve_stages(&built.weightless_strain(), &stages, ask)?;
-    let results =
-        plan.iter().zip(&records).map(|(planned, record)| result(planned, record)).collect();
-    for (planned, record) in plan.iter().zip(&records) {
-        floats(job, printed, &built, planned, record, findings);
-    }
-    let landings = if landing_skipped {
-        Vec::new()
-    } else {
-        landing::landings(job, printed, &built, &plan, &records, findings)?
+    let strengths = built.strengths(printed.laws);
+    let whole = Ask {
+        staged: true,
+        strengths: &strengths,
+        welds: &built.welds,
+        buckling_every: plan.len().div_ceil(BUCKLING_STAGES),
+        keep: &[],
     };
-    let loads = loads::solve_all(job, &built, &strengths, findings);
-    Ok(Growth { built, stages: results, landings, loads, landing_skipped })
+    let unloaded = |stage: &Stage| Stage { trials: Vec::new(), ..stage.clone() };
+    let by_weight: Vec<Stage> = stages.iter().map(unloaded).collect();
+    let weight = Ask { staged: true, ..Ask::default() };
+    let (by_weight, in_all) = rayon::join(
+        || solve_stages(&built.weightless_strain(), &by_weight, weight),
+        || solve_stages(&built.frame, &stages, whole),
+    );
+    let records: Vec<Record> = by_weight?
+        .into_iter()
+        .zip(in_all?)
+        .map(|(by_weight, in_all)| Record { by_weight, in_all })
+        .collect();
+    let results = stage::results(job, printed, &built, &plan, &records, findings);
+    for (planned, record) in plan.iter().zip(&records) {
+        floats(job, printed, &built, planned, &record.in_all, findings);
+    }
+    let landings = landing::landings(job, printed, &built, &plan, &comings, &records, findings);
+    let loads = loads::solve_all(job, printed, &built, &strengths, findings);
+    Ok(Growth { built, stages: results, landings, loads })
 }
 
 /// A stage with what it stands for.
@@ -110,6 +115,31 @@ struct Planned {
     released: Option<usize>,
     time_s: f64,
     stage: Stage,
+    /// State that each trial of the stage shows; `None`: the nozzle's force at its highest.
+    states: Vec<Option<State>>,
+}
+
+impl Planned {
+    /// What a trial shows; `None` where it only bounds another.
+    fn state_of(&self, trial: usize) -> Option<State> {
+        self.states.get(trial).copied().flatten()
+    }
+
+    /// Adds a trial; its place among them.
+    fn try_out(&mut self, loads: Vec<NodeLoad>, shows: Option<State>) -> usize {
+        self.stage.trials.push(loads);
+        self.states.push(shows);
+        self.states.len() - 1
+    }
+}
+
+/// What a stage came to.
+#[derive(Debug, Clone)]
+struct Record {
+    /// Under its weight alone.
+    by_weight: StageRecord,
+    /// Under its weight, locked-in strain and the nozzle.
+    in_all: StageRecord,
 }
 
 /// Stages in order of time: one after each strand, one after each release.
@@ -126,6 +156,7 @@ fn plan(job: &Job, printed: &Printed<'_>, built: &Built) -> Vec<Planned> {
                 released: None,
                 time_s: printing.end_s,
                 stage,
+                states: Vec::new(),
             });
         }
         while let Some(&&(form, _, time_s)) =
@@ -134,7 +165,8 @@ fn plan(job: &Job, printed: &Printed<'_>, built: &Built) -> Vec<Planned> {
             releases.next();
             held_forms[form] = false;
             let stage = stage(job, printed, built, n_printed, &held_forms);
-            plan.push(Planned { printed: n_printed, released: Some(form), time_s, stage });
+            let states = Vec::new();
+            plan.push(Planned { printed: n_printed, released: Some(form), time_s, stage, states });
         }
     }
     plan
@@ -151,9 +183,29 @@ fn stage(
         born: built.born[n_printed],
         supports: built.supports(n_printed, held_forms),
         gravity_m_s2: gravity(job, printed.motion, n_printed).into(),
-        at_nodes: Vec::new(),
-        stiffness: Vec::new(),
+        stiffness: stiffness(printed, built, n_printed),
+        ..Stage::default()
     }
+}
+
+/// Share of its modulus that each member has when the nozzle comes back after `n_printed` strands; empty: all of it.
+///
+/// The newest strand counts as set: how it bends before, `process` says, and its sag is in the geometry.
+fn stiffness(printed: &Printed<'_>, built: &Built, n_printed: usize) -> Vec<f64> {
+    let strands = &printed.deposit.strands;
+    let now_s = strands.get(n_printed).or(strands.last()).map_or(f64::INFINITY, |next| next.born_s);
+    let share = |order: usize| {
+        if order + 1 == n_printed || n_printed == strands.len() {
+            return 1.0;
+        }
+        let middle_s = 0.5 * (strands[order].born_s + strands[order].done_s);
+        printed.laws[order].share_at((now_s - middle_s).max(0.0))
+    };
+    let by_strand: Vec<f64> = (0..n_printed).map(share).collect();
+    if by_strand.iter().all(|&share| share == 1.0) {
+        return Vec::new();
+    }
+    built.member_order[..built.born[n_printed]].iter().map(|&order| by_strand[order]).collect()
 }
 
 /// Gravity in part axes when the nozzle comes to the strand after `n_printed` others; after the
@@ -166,19 +218,6 @@ fn gravity(job: &Job, motion: &Motion, n_printed: usize) -> Vector {
     let q = next.or_else(last).map(|moment| moment.q);
     let world_from_tip = q.map_or_else(|| chain.forward(&job.cell.home), |q| chain.forward(&q));
     job.gravity_in_part(&world_from_tip)
-}
-
-fn result(planned: &Planned, record: &StageRecord) -> StageResult {
-    let one_shot = record.one_shot.as_ref();
-    StageResult {
-        printed: planned.printed,
-        released: planned.released,
-        one_shot_m: one_shot.map(|state| state.max_translation_m),
-        staged_m: record.staged.as_ref().map(|state| state.max_translation_m),
-        node: one_shot.map(|state| state.max_node),
-        utilisation: one_shot.and_then(|state| state.utilisation).map(|used| used.value),
-        residual: one_shot.map_or(0.0, |state| state.residual),
-    }
 }
 
 /// S402: a piece of the frame that nothing holds.

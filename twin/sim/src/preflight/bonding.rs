@@ -3,8 +3,9 @@
 use super::making::StrandResult;
 use super::reheating;
 use crate::cell::Job;
-use crate::deposit::{Contact, Deposit};
+use crate::deposit::{self, Contact, Deposit};
 use crate::finding::{Check, Code, Findings, Site, Words};
+use crate::growth;
 use crate::interval::Interval;
 use crate::process::Setting;
 use crate::process::contact::{self, Touch, contact_area_m2, front_s, pressed_half_width_m};
@@ -17,6 +18,8 @@ use crate::process::thermal::cooling;
 pub struct Bond {
     /// Strength over that along the strand: the share of its section that touches, times how far it has healed.
     pub share: Interval,
+    /// Area of the contact, m².
+    pub area_m2: f64,
     /// What that bears, N.
     pub strength_n: Interval,
     /// How far it has healed, or how many sites are left to react; 0 to 1.
@@ -34,33 +37,51 @@ const LONGEST_S: f64 = 600.0;
 /// Samples of the contact's temperature.
 const SAMPLES: usize = 60;
 
-/// The weakest bond of each strand, in printing order; `contacts` of the deposit as printed.
+/// The bond of each contact of the deposit as printed.
 pub(super) fn bonds(
     job: &Job,
     deposit: &Deposit,
     contacts: &[Contact],
     results: &[StrandResult],
-) -> Vec<Option<Bond>> {
-    let mut bonds: Vec<Option<Bond>> = vec![None; results.len()];
-    for contact in contacts {
-        let order = contact.orders[0];
-        let bond = bond(job, deposit, contact, results);
-        let weakest = &mut bonds[order];
-        if weakest.is_none_or(|known| bond.share.nominal < known.share.nominal) {
-            *weakest = Some(bond);
+) -> Vec<Bond> {
+    contacts.iter().map(|contact| bond(job, deposit, contact, results)).collect()
+}
+
+/// The weakest bond of each strand to earlier ones, in printing order.
+pub(super) fn weakest(contacts: &[Contact], bonds: &[Bond], strands: usize) -> Vec<Option<Bond>> {
+    let mut weakest: Vec<Option<Bond>> = vec![None; strands];
+    for (contact, bond) in contacts.iter().zip(bonds) {
+        let known = &mut weakest[contact.orders[0]];
+        if known.is_none_or(|known| bond.share.nominal < known.share.nominal) {
+            *known = Some(*bond);
         }
     }
-    bonds
+    weakest
+}
+
+/// The bonds as the frame wants them.
+pub(super) fn for_frame(job: &Job, bonds: &[Bond]) -> Vec<growth::Bond> {
+    let strength = job.material.strength_pa;
+    let of = |bond: &Bond| growth::Bond {
+        area_m2: bond.area_m2,
+        tension_pa: Interval::new(
+            bond.degree.nominal * strength.nominal,
+            bond.degree.low * strength.low,
+            bond.degree.high * strength.high,
+        ),
+    };
+    bonds.iter().map(of).collect()
 }
 
 fn bond(job: &Job, deposit: &Deposit, contact: &Contact, results: &[StrandResult]) -> Bond {
     let [result, earlier] = contact.orders.map(|order| &results[order]);
     let age_s = reheating::age_s(deposit, contact, results);
     let degree = degree(job, result, earlier, age_s, contact.at_m[0]);
-    let share =
-        degree.unwrap_or(job.material.bond_fraction).scaled(touching_share(job, contact, result));
     let diameter_m = result.outcome.bead_diameter_m.nominal;
     let section_m2 = std::f64::consts::PI * diameter_m * diameter_m / 4.0;
+    let area_m2 = touching_m2(job, deposit, contact, result, section_m2);
+    let healed = degree.unwrap_or(job.material.bond_fraction);
+    let share = healed.scaled((area_m2 / section_m2).min(1.0));
     let strength = job.material.strength_pa;
     let strength_n = Interval::new(
         share.nominal * strength.nominal * section_m2,
@@ -69,26 +90,37 @@ fn bond(job: &Job, deposit: &Deposit, contact: &Contact, results: &[StrandResult
     );
     Bond {
         share,
+        area_m2,
         strength_n,
-        degree: degree.unwrap_or(job.material.bond_fraction),
+        degree: healed,
         at_m: contact.at_m[0],
         other: earlier.strand,
         by_law: degree.is_some(),
     }
 }
 
-/// Area of contact over the strand's section, at most one. Ends that meet within half a bead are merged: their whole
-/// section touches.
-fn touching_share(job: &Job, contact: &Contact, result: &StrandResult) -> f64 {
+/// Area of contact, m². Ends that meet within half a bead are merged: their whole section touches. Else the patch
+/// of two beads that cross at the angle of their axes, at most that of two that lie side by side as far as one contact
+/// reaches.
+fn touching_m2(
+    job: &Job,
+    deposit: &Deposit,
+    contact: &Contact,
+    result: &StrandResult,
+    section_m2: f64,
+) -> f64 {
     let diameter_m = result.outcome.bead_diameter_m.nominal;
     let axes_m = contact.axes_m();
     if axes_m <= 0.5 * diameter_m {
-        return 1.0;
+        return section_m2;
     }
     let half_m = pressed_half_width_m(diameter_m, axes_m).max(neck_m(job, result));
-    let area_m2 = contact_area_m2(diameter_m, half_m, Touch::Crossing(std::f64::consts::FRAC_PI_2));
-    let section_m2 = std::f64::consts::PI * diameter_m * diameter_m / 4.0;
-    (area_m2 / section_m2).min(1.0)
+    let [a, b] =
+        [0, 1].map(|side| deposit.strands[contact.orders[side]].direction_at(contact.at_m[side]));
+    let angle_rad = a.cross(&b).norm().atan2(a.dot(&b).abs());
+    let crossing_m2 = contact_area_m2(diameter_m, half_m, Touch::Crossing(angle_rad));
+    let reach_m = deposit::ALONGSIDE_DIAMETERS * diameter_m;
+    crossing_m2.min(contact_area_m2(diameter_m, half_m, Touch::Alongside(reach_m)))
 }
 
 /// Half-width of the neck that the fresh strand's surface tension draws while it is hot, m; zero where that is unknown.

@@ -12,7 +12,7 @@ use crate::pose::{Point, Vector};
 use crate::process::bead::Orifice;
 use crate::process::drive::Drive;
 use crate::process::fed::{self, BeadAt, Fed};
-use crate::process::history::Corner;
+use crate::process::history::{Corner, History};
 use crate::process::jet::{self, JetProfile};
 use crate::process::lit::{self, Lit};
 use crate::process::lit_cure::Warmth;
@@ -475,6 +475,24 @@ pub(super) fn law(job: &Job, result: &StrandResult) -> StrandLaw {
             Ends::Resting => -outcome.free_strain.nominal,
         },
         strength_pa: material.strength_pa.nominal,
-        bond_fraction: material.bond_fraction.nominal,
+        ageing: ageing(job, result),
     }
+}
+
+/// Ages at which the modulus of a strand is sampled, s; between them it is taken as linear.
+const AGES_S: [f64; 12] =
+    [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 300.0, 900.0, LAST_AGE_S];
+/// By then a strand is what it will be, s.
+const LAST_AGE_S: f64 = 3600.0;
+
+/// The modulus at ages as a share of the last, until it is all there.
+fn ageing(job: &Job, result: &StrandResult) -> Vec<[f64; 2]> {
+    let history = History::new(&result.input, &job.material);
+    let last_pa = history.modulus_pa(LAST_AGE_S);
+    if !(last_pa > 0.0 && last_pa.is_finite()) {
+        return Vec::new();
+    }
+    let ages =
+        AGES_S.iter().map(|&age_s| [age_s, (history.modulus_pa(age_s) / last_pa).clamp(0.0, 1.0)]);
+    ages.collect()
 }

@@ -144,7 +144,8 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let strands = making::make(&job, &moved, &motion, &mut findings);
     let deposit = making::as_printed(&job, &motion, &strands);
     let contacts = deposit::contacts(&deposit);
-    let bonds = bonding::bonds(&job, &deposit, &contacts, &strands);
+    let each_bond = bonding::bonds(&job, &deposit, &contacts, &strands);
+    let bonds = bonding::weakest(&contacts, &each_bond, strands.len());
     let reheats = reheating::reheats(&job, &deposit, &contacts, &strands);
     bonding::judge(&job, &deposit, &strands, &bonds, &mut findings);
     rules::idle(&job, &motion.printings, &mut findings);
@@ -152,7 +153,13 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     progress(Step::Structure);
     let laws: Vec<growth::StrandLaw> =
         strands.iter().map(|strand| making::law(&job, strand)).collect();
-    let printed = Printed { deposit: &deposit, contacts: &contacts, laws: &laws, motion: &motion };
+    let printed = Printed {
+        deposit: &deposit,
+        contacts: &contacts,
+        bonds: &bonding::for_frame(&job, &each_bond),
+        laws: &laws,
+        motion: &motion,
+    };
     let growth = growth::grow(&job, &printed, &mut findings)?;
 
     progress(Step::Collision);

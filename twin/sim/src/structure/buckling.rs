@@ -6,7 +6,7 @@ use super::beam::Beam;
 use super::divided::{Pencil, Standing};
 use super::frame::{Frame, Member, Support};
 use super::lanczos::{Pair, Stuck, largest};
-use super::solve::{Held, Load, SolveError, by_node, check_inputs, fixed_freedoms};
+use super::solve::{Held, Load, SolveError, by_node, fixed_freedoms};
 use super::strength::{Cut, cuts};
 use crate::pose::Vector;
 
@@ -58,6 +58,28 @@ pub struct Mode {
     pub residual: f64,
     /// Solves it took.
     pub solves: usize,
+}
+
+/// A buckling factor and what moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Buckled {
+    /// On all loads at once; infinite: compression does not suffice.
+    pub factor: f64,
+    /// The member that moves most.
+    pub member: usize,
+    /// Where along it, 0 to 1.
+    pub station: f64,
+}
+
+impl Buckled {
+    pub(crate) fn of(mode: Option<&Mode>) -> Self {
+        let none = Self { factor: f64::INFINITY, member: 0, station: 0.0 };
+        mode.map_or(none, |mode| Self {
+            factor: mode.factor,
+            member: mode.member,
+            station: mode.station,
+        })
+    }
 }
 
 /// Why there is no buckling factor.
@@ -124,16 +146,25 @@ pub fn buckling(
     load: &Load,
     ask: BucklingAsk,
 ) -> Result<Vec<Mode>, BucklingError> {
-    check_inputs(frame, supports, &load.at_nodes, load.gravity_m_s2)?;
-    let held = Held::new(frame, supports)?;
-    let solution = held.solution(load);
-    let fixed = fixed_freedoms(frame.nodes().len(), supports);
-    let free: Vec<bool> = fixed.iter().flatten().map(|fixed| !fixed).collect();
-    let solve = |forces: &[f64]| held.displacement(forces);
-    let cuts = cuts(frame, &solution, load.gravity_m_s2)?;
-    let (members, beams) = (frame.members(), held.beams.as_slice());
-    let of = Standing { members, beams, stiffness: &[], cuts: &cuts, free: &free, solve: &solve };
-    critical(&of, ask)
+    Held::new(frame, supports)?.buckling(load, ask)
+}
+
+impl Held<'_> {
+    /// [`buckling`] with the factor at hand.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn buckling(&self, load: &Load, ask: BucklingAsk) -> Result<Vec<Mode>, BucklingError> {
+        let solution = self.solution(load)?;
+        let fixed = fixed_freedoms(self.frame.nodes().len(), self.supports);
+        let free: Vec<bool> = fixed.iter().flatten().map(|fixed| !fixed).collect();
+        let solve = |forces: &[f64]| self.displacement(forces);
+        let cuts = cuts(self.frame, &solution, load.gravity_m_s2)?;
+        let (members, beams) = (self.frame.members(), self.beams.as_slice());
+        let of =
+            Standing { members, beams, stiffness: &[], cuts: &cuts, free: &free, solve: &solve };
+        critical(&of, ask)
+    }
 }
 
 /// [`buckling`] at any moment, staged or not, with whatever factor is at hand.

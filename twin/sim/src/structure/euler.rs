@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::beam::beams;
-use super::frame::Frame;
+use super::beam::{Beam, beams};
+use super::frame::{Frame, Member};
 use super::solve::{Solution, SolveError};
-use super::strength::cuts;
+use super::strength::{Cut, cuts};
 
 /// Above this part of its Euler load a member asks for the buckling factor of the frame.
 pub const EULER_FLAG: f64 = 0.2;
@@ -38,17 +38,27 @@ pub fn slender(
 ) -> Result<Vec<Slender>, SolveError> {
     let cuts = cuts(frame, solution, gravity_m_s2)?;
     let beams = beams(frame);
-    let of_member = |(at, cut): (usize, &super::strength::Cut)| {
-        let (member, beam) = (&frame.members()[at], &beams[at]);
-        let x = beam.axes.column(0).into_owned();
-        let compression_n = -cut.axial_n(&x, 0.0).min(cut.axial_n(&x, beam.length_m));
-        let euler_n =
-            PI * PI * member.elastic.e_pa * member.section.iy_m4.min(member.section.iz_m4)
-                / beam.length_m.powi(2);
-        Slender { member: at, ratio: compression_n / euler_n, compression_n }
+    let of_member = |(at, cut): (usize, &Cut)| {
+        let (compression_n, ratio) = pressed(&frame.members()[at], &beams[at], cut);
+        Slender { member: at, ratio, compression_n }
     };
     let mut found: Vec<Slender> =
         cuts.iter().enumerate().map(of_member).filter(|each| each.ratio > flag).collect();
     found.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
     Ok(found)
+}
+
+/// The greatest ratio among members with these forces.
+pub(crate) fn most_slender(members: &[Member], beams: &[Beam], cuts: &[Cut]) -> f64 {
+    let ratio = |((member, beam), cut)| pressed(member, beam, cut).1;
+    members.iter().zip(beams).zip(cuts).map(ratio).fold(0.0, f64::max)
+}
+
+/// Compression, N, and its part of the Euler load.
+fn pressed(member: &Member, beam: &Beam, cut: &Cut) -> (f64, f64) {
+    let x = beam.axes.column(0).into_owned();
+    let compression_n = -cut.axial_n(&x, 0.0).min(cut.axial_n(&x, beam.length_m));
+    let euler_n = PI * PI * member.elastic.e_pa * member.section.iy_m4.min(member.section.iz_m4)
+        / beam.length_m.powi(2);
+    (compression_n, compression_n / euler_n)
 }

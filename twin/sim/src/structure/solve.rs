@@ -83,13 +83,14 @@ impl From<Mechanism> for SolveError {
 /// [`SolveError`]: what floats, what is a mechanism, what is named but not there.
 pub fn solve(frame: &Frame, supports: &[Support], load: &Load) -> Result<Solution, SolveError> {
     check_inputs(frame, supports, &load.at_nodes, load.gravity_m_s2)?;
-    Ok(Held::new(frame, supports)?.solution(load))
+    Held::new(frame, supports)?.solution(load)
 }
 
 /// A frame on its supports, its stiffness factored: good for any load.
-pub(crate) struct Held<'a> {
-    frame: &'a Frame,
-    supports: &'a [Support],
+#[derive(Debug)]
+pub struct Held<'a> {
+    pub(crate) frame: &'a Frame,
+    pub(crate) supports: &'a [Support],
     pub(crate) beams: Vec<Beam>,
     pattern: Pattern,
     active: Vec<bool>,
@@ -98,8 +99,12 @@ pub(crate) struct Held<'a> {
 }
 
 impl<'a> Held<'a> {
-    /// Supports must name nodes that are there.
-    pub(crate) fn new(frame: &'a Frame, supports: &'a [Support]) -> Result<Self, SolveError> {
+    /// Factors the stiffness once.
+    ///
+    /// # Errors
+    /// As [`solve`].
+    pub fn new(frame: &'a Frame, supports: &'a [Support]) -> Result<Self, SolveError> {
+        check_inputs(frame, supports, &[], [0.0; 3])?;
         let tie = ground(frame.nodes().len(), frame.members(), supports).tie;
         let fixed = fixed_freedoms(frame.nodes().len(), supports);
         // A node that no member needs but that is clamped stands where it is.
@@ -133,8 +138,12 @@ impl<'a> Held<'a> {
         relative_gap(&self.pattern.multiply(&self.values, &u), &right)
     }
 
-    /// The answer to a load whose nodes are there.
-    pub(crate) fn solution(&self, load: &Load) -> Solution {
+    /// The answer to a load.
+    ///
+    /// # Errors
+    /// A load that is not finite, or at a node that is not there.
+    pub fn solution(&self, load: &Load) -> Result<Solution, SolveError> {
+        check_inputs(self.frame, &[], &load.at_nodes, load.gravity_m_s2)?;
         let members = self.frame.members();
         let mut f = node_forces(self.frame.nodes().len(), &load.at_nodes);
         for (member, beam) in members.iter().zip(&self.beams) {
@@ -145,12 +154,12 @@ impl<'a> Held<'a> {
             beam.stiffness * ends_of(&displacement, member) - fixed_load(beam, load)
         };
         let end_forces: Vec<Vector12> = members.iter().zip(&self.beams).map(of_member).collect();
-        Solution {
+        Ok(Solution {
             reactions: reactions(self.frame, &end_forces, self.supports, &load.at_nodes),
             displacement: by_node(&displacement),
             end_forces: end_forces.iter().map(|forces| (*forces).into()).collect(),
             residual: self.residual(&displacement, &f),
-        }
+        })
     }
 }
 

@@ -9,18 +9,24 @@
 
 use super::assembly::Mechanism;
 use super::beam::{Beam, beams};
+use super::buckling::{Buckled, BucklingAsk, BucklingError, Mode, critical};
+use super::divided::Standing as Pushed;
+use super::euler::{EULER_FLAG, most_slender};
 use super::frame::{Frame, NodeLoad, Support};
 use super::ground::{Ground, Tie, ground};
 use super::growing::Growing;
+use super::ldl::Pair;
 use super::solve::{SolveError, check_inputs, fixed_freedoms};
 use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
 use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
+use super::trial::{Capacity, TrialState, trials};
+use super::weld::{Weld, WeldUse, check_welds};
 
 /// Residual, relative to the loads, with which a stage is left.
 const LIMIT: f64 = 1e-10;
 
 /// One moment of the print.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stage {
     /// Members `0..born` exist; never fewer than at the stage before.
     pub born: usize,
@@ -32,6 +38,10 @@ pub struct Stage {
     pub at_nodes: Vec<NodeLoad>,
     /// Factor on E and G of each born member at this age; empty: 1.
     pub stiffness: Vec<f64>,
+    /// Loads put on the frame as it stands and taken off again, each by itself: what the nozzle does.
+    pub trials: Vec<Vec<NodeLoad>>,
+    /// Nodes whose displacement is wanted.
+    pub watch: Vec<usize>,
 }
 
 /// What is wanted of a sequence.
@@ -41,6 +51,11 @@ pub struct Ask<'a> {
     pub staged: bool,
     /// By member; empty: no utilisation.
     pub strengths: &'a [Strength],
+    /// What holds strands together; asked where strengths are given.
+    pub welds: &'a [Weld],
+    /// Buckling of the last stage, of every stage that is a multiple of this, and of every one that Euler's screen flags;
+    /// 0: of none.
+    pub buckling_every: usize,
     /// Stages (by index) whose displacements are kept.
     pub keep: &'a [usize],
 }
@@ -57,6 +72,10 @@ pub struct StageRecord {
     pub one_shot: Option<StageState>,
     /// Each member born free of stress on the frame as it stood; nodes appear where planned.
     pub staged: Option<StageState>,
+    /// In the order of the stage's trials.
+    pub trials: Vec<TrialState>,
+    /// Buckling under the staged forces, where it was asked for.
+    pub buckling: Option<Result<Buckled, BucklingError>>,
 }
 
 /// How the frame stands at a stage.
@@ -70,12 +89,16 @@ pub struct StageState {
     pub max_rotation_rad: f64,
     /// The most used of the born members; `None` if not asked.
     pub utilisation: Option<Utilisation>,
+    /// The most used of the welds that are there; `None` if not asked, or without any.
+    pub weld: Option<WeldUse>,
     /// In the order of the stage's supports, N and N m.
     pub reactions: Vec<[f64; 6]>,
     /// Forces left out of balance, relative to the loads.
     pub residual: f64,
     /// By node; empty unless kept.
     pub displacement: Vec<[f64; 6]>,
+    /// Of the stage's watched nodes, in their order.
+    pub watched: Vec<[f64; 6]>,
 }
 
 /// Solves every stage of a print.
@@ -106,6 +129,8 @@ pub fn solve_stages(
         growing: Growing::new(frame, &beams, &moving(frame, stages), born),
         standing: Standing::new(frame),
         fresh: 0.0,
+        last: stages.len().saturating_sub(1),
+        mode: None,
     };
     Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
 }
@@ -113,10 +138,17 @@ pub fn solve_stages(
 fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
     if !ask.strengths.is_empty() {
         check_strengths(frame.members().len(), ask.strengths)?;
+        check_welds(ask.welds, frame.members().len(), frame.nodes().len())?;
     }
     let mut before = 0;
     for stage in stages {
         check_inputs(frame, &stage.supports, &stage.at_nodes, stage.gravity_m_s2)?;
+        for trial in &stage.trials {
+            check_inputs(frame, &[], trial, [0.0; 3])?;
+        }
+        if let Some(&node) = stage.watch.iter().find(|&&node| node >= frame.nodes().len()) {
+            return Err(SolveError::BadNode { node });
+        }
         let given = stage.stiffness.len();
         let sound = |factor: &f64| factor.is_finite() && *factor > 0.0;
         let unsound = stage.stiffness.iter().position(|factor| !sound(factor));
@@ -159,6 +191,10 @@ struct Sequence<'a> {
     standing: Standing,
     /// Residual past [`LIMIT`] that a new factor left at the last stage that needed one.
     fresh: f64,
+    /// Index of the last stage.
+    last: usize,
+    /// How the frame buckled when that was last asked: the next shape is near.
+    mode: Option<Mode>,
 }
 
 impl Sequence<'_> {
@@ -170,7 +206,14 @@ impl Sequence<'_> {
         floats.extend(loaded.filter(|&node| tie[node] == Tie::Unborn));
         floats.sort_unstable();
         floats.dedup();
-        let mut record = StageRecord { floats, mechanism: None, one_shot: None, staged: None };
+        let mut record = StageRecord {
+            floats,
+            mechanism: None,
+            one_shot: None,
+            staged: None,
+            trials: Vec::new(),
+            buckling: None,
+        };
 
         let mut free = fixed_freedoms(node_count, &stage.supports).into_iter().zip(&tie);
         let free: Vec<[bool; 6]> =
@@ -187,13 +230,57 @@ impl Sequence<'_> {
         }
         let residuals = self.settle(&moment);
         let kept = self.ask.keep.contains(&index);
-        let state = |side: usize| {
-            let strength = (self.spans, self.ask.strengths);
-            self.standing.state(&moment, side, strength, residuals[side], kept)
-        };
+        let capacity = self.capacity();
+        let state =
+            |side: usize| self.standing.state(&moment, side, &capacity, residuals[side], kept);
         record.one_shot = Some(state(ONE_SHOT));
         record.staged = self.ask.staged.then(|| state(STAGED));
+        record.trials = trials(&moment, &self.standing, &self.growing, &capacity);
+        record.buckling = self.buckling(&moment, &wanted, index);
         record
+    }
+
+    fn capacity(&self) -> Capacity<'_> {
+        Capacity { spans: self.spans, strengths: self.ask.strengths, welds: self.ask.welds }
+    }
+
+    /// Where it is asked for; the shape is kept for the next time.
+    fn buckling(
+        &mut self,
+        moment: &Moment,
+        stiffness: &[f64],
+        index: usize,
+    ) -> Option<Result<Buckled, BucklingError>> {
+        let every = self.ask.buckling_every;
+        if every == 0 {
+            return None;
+        }
+        let cuts = self.standing.cuts(moment, STAGED);
+        let asked = index == self.last || index.is_multiple_of(every);
+        if !asked && most_slender(moment.born(), self.beams, &cuts) <= EULER_FLAG {
+            return None;
+        }
+        let free: Vec<bool> = moment.free.iter().flatten().copied().collect();
+        let solve = |forces: &[f64]| {
+            let mut pairs: Vec<Pair> = forces.iter().map(|&force| [force, 0.0]).collect();
+            self.growing.solve(&mut pairs);
+            pairs.iter().map(|pair| pair[0]).collect()
+        };
+        let of = Pushed {
+            members: moment.born(),
+            beams: &self.beams[..moment.born().len()],
+            stiffness: &stiffness[..moment.born().len()],
+            cuts: &cuts,
+            free: &free,
+            solve: &solve,
+        };
+        let ask = BucklingAsk { near: self.mode.as_ref(), ..BucklingAsk::default() };
+        Some(critical(&of, ask).map(|modes| {
+            let mode = modes.into_iter().next();
+            let buckled = Buckled::of(mode.as_ref());
+            self.mode = mode;
+            buckled
+        }))
     }
 
     /// Lets both answers come to rest; what is left out of balance, relative to the loads.

@@ -7,7 +7,8 @@ use super::ground::Tie;
 use super::ldl::Pair;
 use super::solve::{add_ends, node_forces};
 use super::stages::{Stage, StageState};
-use super::strength::{Cut, Span, Strength, worst};
+use super::strength::Cut;
+use super::trial::Capacity;
 use crate::pose::Vector;
 
 pub(super) use super::balance::{ONE_SHOT, STAGED};
@@ -24,7 +25,7 @@ pub(super) struct Moment<'a> {
 }
 
 impl Moment<'_> {
-    fn born(&self) -> &[Member] {
+    pub(super) fn born(&self) -> &[Member] {
         &self.frame.members()[..self.stage.born]
     }
 }
@@ -215,7 +216,7 @@ impl Standing {
         &self,
         moment: &Moment,
         side: usize,
-        (spans, strengths): (&[Span], &[Strength]),
+        capacity: &Capacity,
         residual: f64,
         kept: bool,
     ) -> StageState {
@@ -232,8 +233,7 @@ impl Standing {
             }
             max_rotation_rad = max_rotation_rad.max(Vector::new(six[3], six[4], six[5]).norm());
         }
-        let utilisation =
-            if spans.is_empty() { None } else { worst(spans, &self.cuts(moment, side), strengths) };
+        let (utilisation, weld) = capacity.used(|| self.cuts(moment, side));
         let held = |&super::Support { node, fixed }: &super::Support| {
             let of = |k: usize| if fixed[k] { -self.gap[6 * node + k][side] } else { 0.0 };
             std::array::from_fn(of)
@@ -243,13 +243,21 @@ impl Standing {
             max_node,
             max_rotation_rad,
             utilisation,
+            weld,
             reactions: moment.stage.supports.iter().map(held).collect(),
             residual,
             displacement: if kept { (0..count).map(of_node).collect() } else { Vec::new() },
+            watched: moment.stage.watch.iter().map(|&node| of_node(node)).collect(),
         }
     }
 
-    fn cuts(&self, moment: &Moment, side: usize) -> Vec<Cut> {
+    /// Displacement of a node, staged.
+    pub(super) fn staged(&self, node: usize) -> [f64; 6] {
+        std::array::from_fn(|freedom| self.u[6 * node + freedom][STAGED])
+    }
+
+    /// Forces in the born members; none in one that floats.
+    pub(super) fn cuts(&self, moment: &Moment, side: usize) -> Vec<Cut> {
         let cut = |(at, member): (usize, &Member)| {
             let line = moment.beams[at].line_load(moment.stage.gravity_m_s2);
             let part = if moment.tie[member.ends[0]] == Tie::Held { 1.0 } else { 0.0 };

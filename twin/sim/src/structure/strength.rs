@@ -1,24 +1,22 @@
-//! Stress in members against strength along the strand, and at their ends against the bond.
+//! Stress in members against strength along the strand. What holds strands together is in `weld`.
 
 use super::beam::{Beam, beams};
 use super::frame::{Frame, Member};
 use super::solve::{Solution, SolveError};
 use crate::pose::Vector;
 
-/// What a strand, and the bond at its ends, can take.
+/// What a strand can take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strength {
     /// In tension along the strand, Pa.
     pub tension_pa: f64,
     /// In compression along the strand, Pa (positive).
     pub compression_pa: f64,
-    /// Tension a bond takes as part of the strand's own, 0 to 1.
-    pub bond_fraction: f64,
 }
 
 impl Strength {
     fn is_usable(&self) -> bool {
-        [self.tension_pa, self.compression_pa, self.bond_fraction]
+        [self.tension_pa, self.compression_pa]
             .iter()
             .all(|number| number.is_finite() && *number > 0.0)
     }
@@ -31,8 +29,6 @@ pub enum Governs {
     Tension,
     /// Compression with torsion in the strand.
     Compression,
-    /// Tension at an end of the member against the bond.
-    Bond,
 }
 
 /// How much of the strength is used, and where.
@@ -65,8 +61,23 @@ impl Cut {
         }
     }
 
+    /// Force and moment on the first end, from its node.
+    pub(crate) fn on_first_end(&self) -> (Vector, Vector) {
+        (self.force_n, self.moment_n_m)
+    }
+
+    /// Force and moment on the piece before a section, from what comes after it.
+    pub(crate) fn on_piece(&self, x: &Vector, s: f64) -> (Vector, Vector) {
+        (-(self.force_n + self.line_n_per_m * s), self.moment(x, s))
+    }
+
+    /// `M = -M₁ + s x × F + s²/2 x × w`, from equilibrium of the piece before the section.
+    fn moment(&self, x: &Vector, s: f64) -> Vector {
+        -self.moment_n_m + x.cross(&self.force_n) * s + x.cross(&self.line_n_per_m) * (s * s / 2.0)
+    }
+
     /// This one and a multiple of another.
-    fn plus(&self, other: &Self, factor: f64) -> Self {
+    pub(crate) fn plus(&self, other: &Self, factor: f64) -> Self {
         Self {
             force_n: self.force_n + other.force_n * factor,
             moment_n_m: self.moment_n_m + other.moment_n_m * factor,
@@ -79,13 +90,10 @@ impl Cut {
         -(self.force_n + self.line_n_per_m * s).dot(x)
     }
 
-    /// Axial force (tension positive), bending moment (vector across) and torque at a section:
-    /// `N = -(F + w s)·x`, `M = -M₁ + s x × F + s²/2 x × w`, from equilibrium of the piece before it.
+    /// Axial force (tension positive), bending moment (vector across) and torque at a section.
     fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
         let axial_n = self.axial_n(x, s);
-        let moment = -self.moment_n_m
-            + x.cross(&self.force_n) * s
-            + x.cross(&self.line_n_per_m) * (s * s / 2.0);
+        let moment = self.moment(x, s);
         let torque = moment.dot(x);
         (axial_n, moment - x * torque, torque)
     }
@@ -121,31 +129,37 @@ impl Span<'_> {
         (axial_pa + bend_pa, axial_pa - bend_pa, torque * section.fibre_m / section.j_m4)
     }
 
-    /// `√(σ² + 3 τ²)` against tension and compression apart, and `σ/(bond · tension)` at the ends.
+    /// `√(σ² + 3 τ²)` against tension and compression apart.
     pub(crate) fn utilisation(&self, cut: &Cut, strength: &Strength) -> (f64, f64, Governs) {
         let mut worst = (0.0, 0.0, Governs::Tension);
-        let stations = cut.stations(&self.x, self.length_m);
-        for (at, &station_m) in stations.iter().enumerate() {
+        for station_m in cut.stations(&self.x, self.length_m) {
             let (high_pa, low_pa, shear_pa) = self.stress(cut, station_m);
             let equivalent_pa = |normal_pa: f64| normal_pa.hypot(3f64.sqrt() * shear_pa);
             let tension = equivalent_pa(high_pa.max(0.0)) / strength.tension_pa;
             let compression = equivalent_pa(low_pa.min(0.0)) / strength.compression_pa;
-            let bond = if at < 2 {
-                high_pa.max(0.0) / (strength.bond_fraction * strength.tension_pa)
-            } else {
-                0.0
-            };
-            for (value, governs) in [
-                (tension, Governs::Tension),
-                (compression, Governs::Compression),
-                (bond, Governs::Bond),
-            ] {
+            for (value, governs) in
+                [(tension, Governs::Tension), (compression, Governs::Compression)]
+            {
                 if value > worst.0 {
                     worst = (value, station_m, governs);
                 }
             }
         }
         worst
+    }
+
+    /// `N/A` against tension and compression apart, at the end where it is greater.
+    pub(crate) fn axial_utilisation(&self, cut: &Cut, strength: &Strength) -> (f64, f64, Governs) {
+        let of = |station_m: f64| {
+            let axial_pa = cut.axial_n(&self.x, station_m) / self.member.section.area_m2;
+            if axial_pa < 0.0 {
+                (-axial_pa / strength.compression_pa, station_m, Governs::Compression)
+            } else {
+                (axial_pa / strength.tension_pa, station_m, Governs::Tension)
+            }
+        };
+        let (near, far) = (of(0.0), of(self.length_m));
+        if far.0 > near.0 { far } else { near }
     }
 }
 
@@ -174,48 +188,6 @@ pub fn utilisation(
     check_strengths(frame.members().len(), strengths)?;
     let cuts = cuts(frame, solution, gravity_m_s2)?;
     Ok(worst(&spans(frame, &beams(frame)), &cuts, strengths))
-}
-
-/// The factor on the second load at which the first member is used up, the first load staying as it
-/// is: 0 where the first alone is too much, infinite where the second never is.
-///
-/// Utilisation is convex in the factor (norms of straight lines), so the crossing is the only one;
-/// it is bisected to a relative 1e-13.
-///
-/// # Errors
-/// As [`utilisation`].
-pub fn first_yield_factor(
-    frame: &Frame,
-    strengths: &[Strength],
-    lasting: (&Solution, [f64; 3]),
-    growing: (&Solution, [f64; 3]),
-) -> Result<f64, SolveError> {
-    check_strengths(frame.members().len(), strengths)?;
-    let base = cuts(frame, lasting.0, lasting.1)?;
-    let step = cuts(frame, growing.0, growing.1)?;
-    let spans = spans(frame, &beams(frame));
-    let used = |factor: f64| {
-        let both: Vec<Cut> = base.iter().zip(&step).map(|(a, b)| a.plus(b, factor)).collect();
-        worst(&spans, &both, strengths).map_or(0.0, |worst| worst.value)
-    };
-    if used(0.0) >= 1.0 {
-        return Ok(0.0);
-    }
-    let Some((mut low, mut high)) = (0..400)
-        .map(|k| 2f64.powi(k - 100))
-        .find(|&factor| used(factor) >= 1.0)
-        .map(|factor| (factor / 2.0, factor))
-    else {
-        return Ok(f64::INFINITY);
-    };
-    if used(low) >= 1.0 {
-        return Ok(low);
-    }
-    while high - low > 1e-13 * high {
-        let middle = 0.5 * (low + high);
-        if used(middle) >= 1.0 { high = middle } else { low = middle }
-    }
-    Ok(low)
 }
 
 /// Members with their directions and lengths.
@@ -248,9 +220,19 @@ pub(crate) fn cuts(
 
 /// The first of the most used members.
 pub(crate) fn worst(spans: &[Span], cuts: &[Cut], strengths: &[Strength]) -> Option<Utilisation> {
+    worst_by(spans, cuts, strengths, |span, cut, strength| span.utilisation(cut, strength))
+}
+
+/// The same by any law.
+pub(crate) fn worst_by(
+    spans: &[Span],
+    cuts: &[Cut],
+    strengths: &[Strength],
+    law: fn(&Span, &Cut, &Strength) -> (f64, f64, Governs),
+) -> Option<Utilisation> {
     let mut worst: Option<Utilisation> = None;
     for (member, ((span, cut), strength)) in spans.iter().zip(cuts).zip(strengths).enumerate() {
-        let (value, station_m, governs) = span.utilisation(cut, strength);
+        let (value, station_m, governs) = law(span, cut, strength);
         if worst.is_none_or(|worst| value > worst.value) {
             worst = Some(Utilisation { value, member, station_m, governs });
         }

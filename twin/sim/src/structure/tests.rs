@@ -11,6 +11,7 @@ mod peers;
 mod sequence;
 mod slender_beams;
 mod sound;
+mod trials;
 mod wireframes;
 mod yields;
 

@@ -29,6 +29,15 @@ pub struct LimitsFile {
     pub set_distance_mm: f64,
     /// Largest deflection of the finished part under its loads, mm.
     pub deflection_mm: f64,
+    /// Largest share of the strength of a member or node while printing, percent.
+    #[serde(default = "all_of_it")]
+    pub strength_percent: f64,
+    /// Least factor on what the growing frame carries at which it buckles.
+    #[serde(default = "twice")]
+    pub buckling_factor: f64,
+    /// Least factor on the loads at which the finished part yields or collapses.
+    #[serde(default = "one")]
+    pub load_factor: f64,
     /// Share of a strand's radius left uncured that warns, and that stops.
     pub uncured_share: [f64; 2],
     /// Largest difference of the TCP's speed from the asked one, percent.
@@ -65,7 +74,12 @@ fn draw_ratio() -> [f64; 2] {
     [0.9, 3.0]
 }
 
-/// At a critical exposure the gel on the tip sets.
+/// At twice what it carries an imperfect frame already bends twice as far as a linear one: `1/(1 - 1/2)`.
+fn twice() -> f64 {
+    2.0
+}
+
+/// At a critical exposure the gel on the tip sets; at its own load a part yields.
 fn one() -> f64 {
     1.0
 }
@@ -83,7 +97,8 @@ pub(super) fn check(limits: Option<Place<'_>>, checks: &mut Checks) {
             | "torque_percent"
             | "acceleration_percent"
             | "speed_band_percent"
-            | "bead_band_percent" => Rule::AboveUpTo(0.0, 100.0),
+            | "bead_band_percent"
+            | "strength_percent" => Rule::AboveUpTo(0.0, 100.0),
             "nozzle_angle_deg" => Rule::AboveUpTo(0.0, 180.0),
             "wrist_deg" => Rule::Between(0.0, 90.0),
             _ => Rule::Positive,

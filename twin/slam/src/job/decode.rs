@@ -205,6 +205,9 @@ fn limits(object: &Object<'_>) -> Limits {
         node_miss_mm: number(object, "node_miss_mm"),
         sag_mm: number(object, "sag_mm"),
         deflection_mm: number(object, "deflection_mm"),
+        strength_percent: number(object, "strength_percent"),
+        buckling_factor: number(object, "buckling_factor"),
+        load_factor: number(object, "load_factor"),
         speed_band_percent: number(object, "speed_band_percent"),
         cycle_time_s: number(object, "cycle_time_s"),
     }

@@ -225,6 +225,9 @@ fn limits(limits: &Limits) -> Vec<String> {
         ("node_miss_mm", limits.node_miss_mm),
         ("sag_mm", limits.sag_mm),
         ("deflection_mm", limits.deflection_mm),
+        ("strength_percent", limits.strength_percent),
+        ("buckling_factor", limits.buckling_factor),
+        ("load_factor", limits.load_factor),
         ("speed_band_percent", limits.speed_band_percent),
         ("cycle_time_s", limits.cycle_time_s),
     ])

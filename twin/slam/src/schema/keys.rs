@@ -361,6 +361,27 @@ const LIMITS: Table = table(
             "Largest deflection of the finished part under its loads.",
         ),
         optional(
+            "strength_percent",
+            Kind::Number(Range::positive(100.0)),
+            "%",
+            "the cell's",
+            "Largest share of the strength of a member or node while printing.",
+        ),
+        optional(
+            "buckling_factor",
+            Kind::Number(LIMIT),
+            "",
+            "the cell's",
+            "Least factor on what the growing frame carries at which it buckles.",
+        ),
+        optional(
+            "load_factor",
+            Kind::Number(LIMIT),
+            "",
+            "the cell's",
+            "Least factor on the loads at which the finished part yields or collapses.",
+        ),
+        optional(
             "speed_band_percent",
             Kind::Number(Range::positive(100.0)),
             "%",

@@ -6,12 +6,12 @@ use crate::pose::Vector;
 use crate::structure::beam::{Vector12, beams};
 use crate::structure::frame::Frame;
 use crate::structure::solve::SolveError;
-use crate::structure::strength::{Cut, Span, Strength, Utilisation, check_strengths, spans};
+use crate::structure::strength::{Cut, Strength, Utilisation, check_strengths, spans};
 
 /// The most used member where a path ended, by the laws of the linear solution: forces are turned
 /// back with each part of a member. `frame` is the one the path was followed with, each member of
 /// it cut into `parts` (1: as it is); `strengths`, and the member and station of the answer, go by
-/// whole members. The bond is asked only where a whole member ends. `None` without members.
+/// whole members. `None` without members.
 ///
 /// # Errors
 /// [`SolveError::BadMember`] where a strength or a force is missing or not positive.
@@ -37,25 +37,10 @@ pub fn utilisation(
         let forces = block_turned(&Vector12::from(path.local_end_forces[at]), &axes);
         let line = axes * Vector::from(path.local_line_n_per_m[at]);
         let cut = Cut::new(forces.as_slice(), line);
-        let strength = &strengths[member];
-        // within a strand there is no bond; at its ends, a cut without length
-        let unbonded = Strength { bond_fraction: f64::MAX / strength.tension_pa, ..*strength };
-        let point = |cut: Cut, station_m: f64| {
-            let point = Span { length_m: 0.0, ..*span };
-            let (value, _, governs) = point.utilisation(&cut, strength);
-            (value, station_m, governs)
-        };
-        let far = Cut::new((-forces).rows(6, 6).into_owned().as_slice(), line);
-        let found = [
-            Some(span.utilisation(&cut, &unbonded)),
-            (part == 0).then(|| point(cut, 0.0)),
-            (part + 1 == parts).then(|| point(far, span.length_m)),
-        ];
-        for (value, station_m, governs) in found.into_iter().flatten() {
-            if worst.is_none_or(|worst| value > worst.value) {
-                let station_m = part as f64 * span.length_m + station_m;
-                worst = Some(Utilisation { value, member, station_m, governs });
-            }
+        let (value, station_m, governs) = span.utilisation(&cut, &strengths[member]);
+        if worst.is_none_or(|worst| value > worst.value) {
+            let station_m = part as f64 * span.length_m + station_m;
+            worst = Some(Utilisation { value, member, station_m, governs });
         }
     }
     Ok(worst)

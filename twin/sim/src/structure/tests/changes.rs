@@ -137,6 +137,7 @@ fn whatever_changes_the_stage_is_that_of_a_fresh_solve() {
                         },
                     )
                     .collect(),
+                ..Stage::default()
             }
         })
         .collect();

@@ -52,7 +52,7 @@ fn growing(frame: &Frame, supports: &[Support]) -> Vec<Stage> {
         supports: supports.to_vec(),
         gravity_m_s2: DOWN,
         at_nodes: Vec::new(),
-        stiffness: Vec::new(),
+        ..Stage::default()
     };
     (1..=frame.members().len()).map(stage).collect()
 }

@@ -143,6 +143,7 @@ fn random_frames_of_three_solvers() {
             gravity_m_s2: down,
             at_nodes: Vec::new(),
             stiffness: factors,
+            ..Stage::default()
         };
         let ask = Ask { keep: &[0], ..Ask::default() };
         let records = solve_stages(&reference.frame, &[stage], ask).unwrap();

@@ -12,7 +12,7 @@ fn stage(born: usize, supports: &[Support]) -> Stage {
         supports: supports.to_vec(),
         gravity_m_s2: DOWN,
         at_nodes: Vec::new(),
-        stiffness: Vec::new(),
+        ..Stage::default()
     }
 }
 
@@ -97,11 +97,10 @@ fn one_shot_is_a_solve_of_the_part_so_far() {
 #[test]
 fn same_bytes_on_one_thread_and_on_four() {
     let (frame, supports, _) = printed();
-    let strengths =
-        vec![Strength { tension_pa: 4e7, compression_pa: 5e7, bond_fraction: 0.5 }; 150];
+    let strengths = vec![Strength { tension_pa: 4e7, compression_pa: 5e7 }; 150];
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let ask = Ask { staged: true, strengths: &strengths, keep: &[3, 149] };
+        let ask = Ask { staged: true, strengths: &strengths, keep: &[3, 149], ..Ask::default() };
         pool.install(|| solve_stages(&frame, &growing(&frame, &supports), ask)).unwrap()
     };
     let (one, four) = (run(1), run(4));
@@ -138,8 +137,8 @@ fn a_floating_piece_waits() {
     let whole = chain(Vector::x(), 0.06, 3);
     let order = [0, 2, 1].map(|k| whole.members()[k]);
     let frame = Frame::new(whole.nodes().to_vec(), order.to_vec()).unwrap();
-    let strengths = [Strength { tension_pa: 4e7, compression_pa: 5e7, bond_fraction: 0.5 }; 3];
-    let ask = Ask { staged: true, strengths: &strengths, keep: &[0, 1, 2] };
+    let strengths = [Strength { tension_pa: 4e7, compression_pa: 5e7 }; 3];
+    let ask = Ask { staged: true, strengths: &strengths, keep: &[0, 1, 2], ..Ask::default() };
     let records = solve_stages(&frame, &growing(&frame, &clamped([0])), ask).unwrap();
     assert!(records[0].floats.is_empty());
     assert_eq!(records[1].floats, [2]);

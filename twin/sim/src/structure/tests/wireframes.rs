@@ -120,7 +120,7 @@ fn wireframes_while_they_grow() {
             supports: supports.clone(),
             gravity_m_s2: UNIT,
             at_nodes: Vec::new(),
-            stiffness: Vec::new(),
+            ..Stage::default()
         };
         let stages: Vec<Stage> = (1..=order.len()).map(stage).collect();
         let records = solve_stages(&frame, &stages, Ask::default()).unwrap();
