@@ -8,6 +8,7 @@
 
 mod assembly;
 mod balance;
+mod beads;
 mod beam;
 mod buckling;
 pub mod corotational;
@@ -19,6 +20,7 @@ mod ground;
 mod growing;
 mod lanczos;
 mod ldl;
+mod plastic;
 mod section;
 mod solve;
 mod stages;
@@ -26,10 +28,13 @@ mod standing;
 mod strength;
 #[cfg(test)]
 mod tests;
+mod yielding;
 
+pub use beads::{Bead, BeadsFault, Bundle, bundle, torsion_ceiling_m4};
 pub use buckling::{BucklingAsk, BucklingError, Mode, buckling};
 pub use euler::{EULER_FLAG, Slender, slender};
 pub use frame::{Frame, FrameFault, Member, NodeLoad, Support};
+pub use plastic::{Collapse, plastic_bound};
 pub use section::{Elastic, Section};
 pub use solve::{Load, Solution, SolveError, solve};
 pub use stages::{Ask, Stage, StageRecord, StageState, solve_stages};

@@ -4,8 +4,10 @@
 
 mod brute_force;
 mod buckles;
+mod bundles;
 mod changes;
 mod closed_forms;
+mod collapse;
 pub(super) mod grows;
 mod peers;
 mod sequence;
