@@ -29,9 +29,11 @@ const POWER: f64 = 0.5;
 /// nothing. Corrected once or twice it comes to 1e-13.
 const BALANCED: f64 = 1e-10;
 const CORRECTIONS: usize = 3;
-/// Steps of the search for a factor: doublings out to 2^±120, then halvings to the last digits.
+/// Steps of the search for a factor: doublings out to 2^±120, then halvings to 1e-12; how much a part
+/// has to spare need not be known so well.
 const DOUBLINGS: usize = 120;
-const HALVINGS: usize = 45;
+const HALVINGS: usize = 40;
+const HALVINGS_SPARE: usize = 10;
 
 /// What a frame of ductile members carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,21 +95,17 @@ pub fn plastic_bound(
     }
     let parted = parted(frame).map_err(|_| SolveError::TooLarge)?;
     let check = Check::new(&parted, strengths);
+    let mut held = Held::new(&parted, supports)?;
+    let spans = spans(&parted, &held.beams);
     let mut soft = vec![1.0; parted.members().len()];
     let mut last_gain = (0, best.bound);
     for iteration in 1..=ITERATIONS {
-        let softened = softened(&parted, &soft)?;
-        // a part softened so far that it moves freely ends the search, not the answer
-        let Ok(held) = Held::new(&softened, supports) else { break };
         best.iterations = iteration;
-        let balanced = |load| in_balance(&softened, supports, &held, load);
+        let balanced = |load| in_balance(&parted, supports, &held, load);
         let (Some(base), Some(step)) = (balanced(lasting), balanced(growing)) else { break };
-        let gravity_m_s2 = [lasting, growing].map(|load| load.gravity_m_s2);
-        let field = Field {
-            spans: spans(&softened, &held.beams),
-            base: cuts(&softened, &base, gravity_m_s2[0])?,
-            step: cuts(&softened, &step, gravity_m_s2[1])?,
-        };
+        let base = cuts(&parted, &base, lasting.gravity_m_s2)?;
+        let step = cuts(&parted, &step, growing.gravity_m_s2)?;
+        let field = Field { spans: &spans, base, step };
         if let Some((bound, part)) = check.factor(&field, best.bound) {
             best = Collapse { bound, member: Some(part / PARTS), ..best };
         }
@@ -116,7 +114,11 @@ pub fn plastic_bound(
         } else if iteration - last_gain.0 >= PATIENCE {
             break;
         }
-        soften(&mut soft, &check.spare(&field, best.bound));
+        let by = soften(&mut soft, &check.spare(&field, best.bound));
+        // softened so far that something moves freely: the end of the search, not of the answer
+        if held.rescale(&by).is_err() {
+            break;
+        }
     }
     Ok(best)
 }
@@ -137,28 +139,18 @@ fn parted(frame: &Frame) -> Result<Frame, FrameFault> {
     Frame::new(nodes, members)
 }
 
-fn softened(frame: &Frame, soft: &[f64]) -> Result<Frame, SolveError> {
-    let soften = |(member, factor): (&Member, &f64)| {
-        let mut member = *member;
-        member.elastic.e_pa *= factor;
-        member.elastic.g_pa *= factor;
-        member
-    };
-    let members = frame.members().iter().zip(soft).map(soften).collect();
-    // moduli near the smallest numbers may vanish
-    Frame::new(frame.nodes().to_vec(), members).map_err(|_| SolveError::TooLarge)
-}
-
-/// Parts that have less to spare become softer than the others, the stiffest being 1.
-fn soften(soft: &mut [f64], spare: &[f64]) {
+/// Parts that have less to spare become softer than the others, the stiffest being 1. What each is
+/// to be multiplied by.
+fn soften(soft: &mut [f64], spare: &[f64]) -> Vec<f64> {
     let least = spare.iter().copied().fold(f64::INFINITY, f64::min).max(f64::MIN_POSITIVE);
-    for (soft, spare) in soft.iter_mut().zip(spare) {
-        *soft *= (spare / least).clamp(1.0, RATIO).powf(POWER);
-    }
-    let stiffest = soft.iter().copied().fold(0.0, f64::max);
-    for soft in soft {
-        *soft = (*soft / stiffest).max(1.0 / RANGE);
-    }
+    let wanted = |(soft, spare): (&f64, &f64)| soft * (spare / least).clamp(1.0, RATIO).powf(POWER);
+    let wanted: Vec<f64> = soft.iter().zip(spare).map(wanted).collect();
+    let stiffest = wanted.iter().copied().fold(0.0, f64::max);
+    let change = |(soft, wanted): (&mut f64, f64)| {
+        let before = std::mem::replace(soft, (wanted / stiffest).max(1.0 / RANGE));
+        *soft / before
+    };
+    soft.iter_mut().zip(wanted).map(change).collect()
 }
 
 /// A solution whose member forces are in balance with the load, the initial strain left out. What a
@@ -212,7 +204,7 @@ fn norm(values: &[f64]) -> f64 {
 
 /// Forces in balance with the lasting load, and with the growing one.
 struct Field<'a> {
-    spans: Vec<Span<'a>>,
+    spans: &'a [Span<'a>],
     base: Vec<Cut>,
     step: Vec<Cut>,
 }
@@ -261,21 +253,22 @@ impl Check {
             return None;
         }
         let start = if known > 0.0 { known } else { 1.0 };
-        let factor = largest(start, |factor| first_past(factor).is_none());
+        let factor = largest(start, HALVINGS, |factor| first_past(factor).is_none());
         let past = factor * (1.0 + 1e-9);
         (factor > known).then(|| (factor, first_past(past).unwrap_or_default()))
     }
 
     /// By part: the factor on lasting and grown load together that it carries.
     fn spare(&self, field: &Field, factor: f64) -> Vec<f64> {
-        let of_part = |part| largest(1.0, |scale| self.carries(field, part, scale, factor));
+        let of_part =
+            |part| largest(1.0, HALVINGS_SPARE, |scale| self.carries(field, part, scale, factor));
         (0..field.spans.len()).map(of_part).collect()
     }
 }
 
 /// Largest number for which something holds that holds up to there, from a guess: 0 below 2^-120 of
 /// the guess, and no more than 2^120 of it.
-fn largest(guess: f64, holds: impl Fn(f64) -> bool) -> f64 {
+fn largest(guess: f64, halvings: usize, holds: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (guess, guess);
     if holds(guess) {
         for _ in 0..DOUBLINGS {
@@ -300,7 +293,7 @@ fn largest(guess: f64, holds: impl Fn(f64) -> bool) -> f64 {
             return 0.0;
         }
     }
-    for _ in 0..HALVINGS {
+    for _ in 0..halvings {
         let middle = 0.5 * (low + high);
         if holds(middle) { low = middle } else { high = middle }
     }
