@@ -8,6 +8,7 @@
 
 mod assembly;
 mod balance;
+mod balanced;
 mod beads;
 mod beam;
 mod buckling;

@@ -1,11 +1,8 @@
 //! How far a ductile frame carries past its first yield: a lower bound of the collapse load.
 
-use super::beam::Vector12;
-use super::frame::{Frame, FrameFault, Member, NodeLoad, Support};
-use super::solve::{
-    Held, Load, Solution, SolveError, add_ends, by_node, check_inputs, fixed_freedoms, node_forces,
-    solve,
-};
+use super::balanced::in_balance;
+use super::frame::{Frame, FrameFault, Member, Support};
+use super::solve::{Held, Load, SolveError, check_inputs, solve};
 use super::strength::{Cut, Span, Strength, check_strengths, cuts, first_yield_factor, spans};
 use super::yielding::{EllipseCurve, Forces, Yielding};
 
@@ -25,10 +22,6 @@ const RANGE: f64 = 1e4;
 /// softened, frames of bars settle within thirty solves.
 const RATIO: f64 = 4.0;
 const POWER: f64 = 0.5;
-/// Forces left over at nodes, over the loads, below which a field is in balance; otherwise it proves
-/// nothing. Corrected once or twice it comes to 1e-13.
-const BALANCED: f64 = 1e-10;
-const CORRECTIONS: usize = 3;
 /// Steps of the search for a factor: doublings out to 2^±120, then halvings to 1e-12; how much a part
 /// has to spare need not be known so well.
 const DOUBLINGS: usize = 120;
@@ -38,7 +31,8 @@ const HALVINGS_SPARE: usize = 10;
 /// What a frame of ductile members carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collapse {
-    /// Factor on the growing load that the frame carries for sure; at least the first yield's.
+    /// Factor on the growing load that the frame carries for sure; at least the first yield's. 0: not
+    /// even the lasting load is shown to be carried.
     pub bound: f64,
     /// Factor at which the elastic frame first yields, at a fibre.
     pub first_yield: f64,
@@ -49,7 +43,8 @@ pub struct Collapse {
 }
 
 impl Collapse {
-    /// Post-yield reserve: bound over first yield; 1 where both are unlimited or nothing.
+    /// Post-yield reserve: bound over first yield; 1 where both are unlimited or nothing, infinite
+    /// where only redistribution carries the lasting load.
     pub fn reserve(&self) -> f64 {
         if self.bound == self.first_yield { 1.0 } else { self.bound / self.first_yield }
     }
@@ -151,55 +146,6 @@ fn soften(soft: &mut [f64], spare: &[f64]) -> Vec<f64> {
         *soft / before
     };
     soft.iter_mut().zip(wanted).map(change).collect()
-}
-
-/// A solution whose member forces are in balance with the load, the initial strain left out. What a
-/// soft frame's displacements leave over by rounding is put on it again and the forces are added.
-fn in_balance(frame: &Frame, supports: &[Support], held: &Held, load: &Load) -> Option<Solution> {
-    let load = Load { with_initial_strain: false, ..load.clone() };
-    let mut solution = held.solution(&load);
-    let mut wanted = node_forces(frame.nodes().len(), &load.at_nodes);
-    for (member, beam) in frame.members().iter().zip(&held.beams) {
-        add_ends(&mut wanted, member, &beam.weight_load(load.gravity_m_s2));
-    }
-    let size = norm(&wanted);
-    let fixed = fixed_freedoms(frame.nodes().len(), supports);
-    for _ in 0..CORRECTIONS {
-        let left = left_over(frame, &fixed, &load, &solution);
-        let flat: Vec<f64> = left.iter().flat_map(|load| load.load).collect();
-        if norm(&flat) <= BALANCED * size {
-            return Some(solution);
-        }
-        let more = held.solution(&Load { at_nodes: left, ..Load::default() });
-        for (ends, more) in solution.end_forces.iter_mut().zip(&more.end_forces) {
-            ends.iter_mut().zip(more).for_each(|(end, more)| *end += more);
-        }
-    }
-    None
-}
-
-/// Loads on the free freedoms that no member takes up.
-fn left_over(
-    frame: &Frame,
-    fixed: &[[bool; 6]],
-    load: &Load,
-    solution: &Solution,
-) -> Vec<NodeLoad> {
-    let mut left = node_forces(frame.nodes().len(), &load.at_nodes);
-    for (member, ends) in frame.members().iter().zip(&solution.end_forces) {
-        add_ends(&mut left, member, &-Vector12::from(*ends));
-    }
-    let of_node = |(node, (mut load, fixed)): (usize, ([f64; 6], &[bool; 6]))| {
-        for (force, _) in load.iter_mut().zip(fixed).filter(|(_, fixed)| **fixed) {
-            *force = 0.0;
-        }
-        NodeLoad { node, load }
-    };
-    by_node(&left).into_iter().zip(fixed).enumerate().map(of_node).collect()
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// Forces in balance with the lasting load, and with the growing one.

@@ -74,7 +74,8 @@ fn made(library: &Library<'_>) -> Made {
 /// The beam of stress lines, and the grid.
 pub(in super::super) fn cases(library: &Library<'_>) -> Vec<Case> {
     let made = made(library);
-    let of = |roads: usize| Pair::new(&stress(made.poisson)?, made, roads);
+    let field = stress(made.poisson);
+    let of = |roads: usize| Pair::new(field.as_ref()?, made, roads);
     let others: Vec<Pair> = OTHER_ROADS.iter().filter_map(|&roads| of(roads)).collect();
     match of(ROADS) {
         Some(pair) => vec![lines_case(library, &pair, &others), grid_case(library, &pair, &others)],
@@ -165,7 +166,7 @@ fn lines_note(library: &Library<'_>, pair: &Pair) -> String {
     let plastic = Loaded::new(&pair.lines, made(library)).and_then(|loaded| loaded.plastic_n());
     format!(
         "of the paper: span 150 mm, box 151.9 x 37.6 x 30.5 mm, two families in alternate layers, mass {} g (ours {} g). \
-         Ours, chosen before any load was computed: enclosure 1.9 mm, by which the box is longer than the span, four \
+         Ours, from the paper's words and the printer, none from a load: enclosure 1.9 mm, by which the box is longer than the span, four \
          roads in all layers of 0.254 mm; bars two roads, one outline, in every second layer; as many lines seeded evenly \
          at mid-depth as the mass allows, {} a family; platform 12 mm; rigid joints on centre lines, roads bonded, ABS of \
          the library; the range is that of its strength and of bars of two to four roads. Other criteria, N/N: fibre \

@@ -110,14 +110,15 @@ struct Joints {
 impl Joints {
     /// The joint at a place, an earlier one if it is near.
     fn at(&mut self, at: [f64; 2]) -> usize {
-        let near = |node: &usize| distance(self.nodes_m[*node], at) < self.joint_m;
-        let nearest = (0..self.nodes_m.len()).filter(near).min_by(|a, b| {
-            distance(self.nodes_m[*a], at).total_cmp(&distance(self.nodes_m[*b], at))
-        });
-        nearest.unwrap_or_else(|| {
-            self.nodes_m.push(at);
-            self.nodes_m.len() - 1
-        })
+        let away2 = |node: &[f64; 2]| minus(*node, at).iter().map(|gap| gap * gap).sum::<f64>();
+        let nearest = self.nodes_m.iter().map(away2).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
+        match nearest {
+            Some((node, away2)) if away2 < self.joint_m.powi(2) => node,
+            _ => {
+                self.nodes_m.push(at);
+                self.nodes_m.len() - 1
+            }
+        }
     }
 
     /// Foot on the nearest side, if one is within reach.

@@ -114,8 +114,8 @@ pub(super) fn stress(poisson: f64) -> Option<Field> {
 
 /// The beam of stress lines: bars of whole roads, and as many lines as come nearest to the mass.
 ///
-/// Lines of both families start at mid-depth, evenly along the span, and end where they touch the
-/// enclosure. A seed nearer than a bar's thickness to a line of its family starts none: a line that
+/// Lines of both families start at mid-depth, evenly along the span, an even number since the axis of
+/// symmetry has a place without directions, and end where they touch the enclosure. A seed nearer than a bar's thickness to a line of its family starts none: a line that
 /// dips through mid-depth twice is met by two seeds.
 pub(super) fn from_lines(
     stress: &Field,
@@ -131,10 +131,18 @@ pub(super) fn from_lines(
         Printed { net, inner, inner_m, enclosure, count }
     };
     let mass_kg = |printed: &Printed| printed.volume_m3() * density_kg_m3;
-    let (mut few, mut many) = (of(1), of(SEEDS_MOST));
-    while many.count - few.count > 1 {
-        let middle = of(usize::midpoint(few.count, many.count));
-        if mass_kg(&middle) <= MASS_KG { few = middle } else { many = middle }
+    let (mut few, mut many) = (of(2), of(4));
+    while mass_kg(&many) <= MASS_KG && many.count < SEEDS_MOST {
+        let more = of(2 * many.count);
+        few = std::mem::replace(&mut many, more);
+    }
+    while many.count - few.count > 2 {
+        let middle = of((few.count + many.count) / 4 * 2);
+        if mass_kg(&middle) <= MASS_KG {
+            few = middle;
+        } else {
+            many = middle;
+        }
     }
     let off = |printed: &Printed| (mass_kg(printed) - MASS_KG).abs();
     Some(if off(&few) <= off(&many) { few } else { many })
@@ -200,39 +208,41 @@ fn passes(line: &Line, at: [f64; 2], within_m: f64) -> bool {
 pub(super) fn from_grid(volume_m3: f64, roads: usize, bond: f64) -> Option<Printed> {
     let enclosure = wall(ENCLOSURE_ROADS, layers(), road_m(), bond)?;
     let full = wall(roads, layers() / 2, road_m(), bond)?;
+    let [length, depth] = axes().high_m;
+    let enclosure_m3 = 2.0 * (length + depth) * enclosure.section.area_m2;
     let of = |rows: usize| {
-        let net = net_of_grid(rows);
-        let enclosure_m = net.total_m(|part| part == Part::Enclosure);
-        let inner_m = net.total_m(|part| part != Part::Enclosure);
-        let area_m2 = (volume_m3 - enclosure_m * enclosure.section.area_m2) / inner_m;
+        let inner_m = (rows - 1) as f64 * length + (columns(rows) - 1) as f64 * depth;
+        let area_m2 = (volume_m3 - enclosure_m3) / inner_m;
         // the area of a bead grows by its height for every width
         let more_m2 = (area_m2 - full.section.area_m2) / (roads * (layers() / 2)) as f64;
-        let road_m = road_m() + more_m2 / LAYER_M;
-        let inner = wall(roads, layers() / 2, road_m, bond)?;
-        Some(Printed { net, inner, inner_m: roads as f64 * road_m, enclosure, count: rows })
+        (rows, road_m() + more_m2 / LAYER_M)
     };
-    let off = |printed: &Printed| (printed.inner_m / (roads as f64 * road_m()) - 1.0).abs();
-    (2..=SEEDS_MOST / 2).filter_map(of).min_by(|a, b| off(a).total_cmp(&off(b)))
+    let off = |road: f64| (road / road_m() - 1.0).abs();
+    let candidates = (2..=SEEDS_MOST / 2).map(of);
+    let (rows, road_m) = candidates.min_by(|a, b| off(a.1).total_cmp(&off(b.1)))?;
+    let inner = wall(roads, layers() / 2, road_m, bond)?;
+    let inner_m = roads as f64 * road_m;
+    Some(Printed { net: net_of_grid(rows), inner, inner_m, enclosure, count: rows })
+}
+
+/// Cells along the span, nearly square; an even number, so that there is an upright under the load.
+fn columns(rows: usize) -> usize {
+    let [length, depth] = axes().high_m;
+    2 * (rows as f64 * length / depth / 2.0).round() as usize
 }
 
 fn net_of_grid(rows: usize) -> Net {
     let [length, depth] = axes().high_m;
-    // an even number, so that there is an upright under the load
-    let columns = 2 * (rows as f64 * length / depth / 2.0).round() as usize;
     let across = |k: usize, count: usize, size: f64| k as f64 / count as f64 * size;
-    let mut lines = Vec::new();
-    for row in 1..rows {
+    let along = |row| {
         let y = across(row, rows, depth);
-        lines.push(Line { family: Family::Larger, points: vec![[0.0, y], [length, y]] });
-    }
-    for column in 1..columns {
-        let x = across(column, columns, length);
-        lines.push(Line { family: Family::Smaller, points: vec![[x, 0.0], [x, depth]] });
-    }
-    net_of_lines_in_grid(&lines)
-}
-
-fn net_of_lines_in_grid(lines: &[Line]) -> Net {
+        Line { family: Family::Larger, points: vec![[0.0, y], [length, y]] }
+    };
+    let upright = |column| {
+        let x = across(column, columns(rows), length);
+        Line { family: Family::Smaller, points: vec![[x, 0.0], [x, depth]] }
+    };
+    let lines: Vec<Line> = (1..rows).map(along).chain((1..columns(rows)).map(upright)).collect();
     // nothing is near anything else: joints are as small as rounding needs
-    net_of_lines(lines, 1e-6)
+    net_of_lines(&lines, 1e-6)
 }

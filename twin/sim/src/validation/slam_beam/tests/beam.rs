@@ -98,9 +98,17 @@ fn both_beams_of_one_mass() {
             pair.grid.inner_m * 1e3
         );
         println!("  lines {:?}\n  grid  {:?}", pair.of_lines, pair.of_grid);
+        // a beam that mirrors
+        for at in &pair.lines.net.nodes_m {
+            let mirrored = [SPAN_M - at[0], at[1]];
+            let near = |to: &[f64; 2]| lines::distance(*to, mirrored) < 0.1 * pair.lines.inner_m;
+            assert!(pair.lines.net.nodes_m.iter().any(near), "{at:?} has no mirror");
+        }
         let (lines_m3, grid_m3) = (pair.lines.volume_m3(), pair.grid.volume_m3());
         assert!((grid_m3 / lines_m3 - 1.0).abs() < 1e-9);
-        assert!((lines_m3 * MADE.density_kg_m3 / MASS_KG - 1.0).abs() < 0.05);
+        // as near as a pair of lines more or less comes
+        let step = if roads == 2 { 0.01 } else { 0.1 };
+        assert!((lines_m3 * MADE.density_kg_m3 / MASS_KG - 1.0).abs() < step);
         assert!((pair.grid.inner_m / pair.lines.inner_m - 1.0).abs() < 0.1);
         assert!(pair.stiffer() > 1.0, "{}", pair.stiffer());
         for told in [&pair.of_lines, &pair.of_grid] {
