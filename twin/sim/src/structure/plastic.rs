@@ -177,7 +177,8 @@ impl Check {
         let z = span.x.cross(&span.y);
         let stations = cut.stations(&span.x, span.length_m);
         // of the three parts' ends only two are ends of the member
-        let bond = [part % PARTS == 0, part % PARTS == PARTS - 1, false, false];
+        let piece = part % PARTS;
+        let bond = [piece == 0, piece + 1 == PARTS, false, false];
         stations.iter().zip(bond).all(|(&station_m, bond)| {
             let (axial_n, bending, torque) = cut.at(&span.x, station_m);
             let forces = Forces {

@@ -161,7 +161,8 @@ fn spirals_of_a_ring() {
 #[test]
 fn reference_trajectories() {
     let Some(reference) = reference("stress_lines/analytic_trajectories.json") else { return };
-    let fields: [(&str, fn([f64; 2]) -> Tensor, [[f64; 2]; 2]); 4] = [
+    type Known = (&'static str, fn([f64; 2]) -> Tensor, [[f64; 2]; 2]);
+    let fields: [Known; 4] = [
         ("cantilever_parabolic_shear", cantilever, [[0.1, -C], [101.0, C]]),
         ("ss_beam_udl", deep_beam, [[-41.0, -C], [41.0, C]]),
         ("kirsch_hole", kirsch, [[-7.0; 2], [7.0; 2]]),
