@@ -88,7 +88,7 @@ pub fn plastic_bound(
     if !first_yield.is_finite() {
         return Ok(best);
     }
-    let parted = parted(frame).map_err(|_| SolveError::TooLarge)?;
+    let parted = parted(frame).map_err(too_short)?;
     let check = Check::new(&parted, strengths);
     let mut held = Held::new(&parted, supports)?;
     let spans = spans(&parted, &held.beams);
@@ -132,6 +132,17 @@ fn parted(frame: &Frame) -> Result<Frame, FrameFault> {
         }
     }
     Frame::new(nodes, members)
+}
+
+/// A member so short that a tenth of it is nothing.
+fn too_short(fault: FrameFault) -> SolveError {
+    match fault {
+        FrameFault::NoLength { member }
+        | FrameFault::NoSuchNode { member, .. }
+        | FrameFault::Constants { member }
+        | FrameFault::Split { member } => SolveError::BadMember { member: member / PARTS },
+        FrameFault::NotFinite { node } => SolveError::BadNode { node },
+    }
 }
 
 /// Parts that have less to spare become softer than the others, the stiffest being 1. What each is

@@ -8,6 +8,7 @@ mod bundles;
 mod changes;
 mod closed_forms;
 mod collapse;
+mod domains;
 pub(super) mod grows;
 mod peers;
 mod sequence;

@@ -52,13 +52,11 @@ impl Grid {
 pub(super) struct Field {
     grid: Grid,
     centres: Vec<Tensor>,
-    /// By freedom, for E = 1 Pa and thickness 1 m.
-    pub(super) displacement: Vec<f64>,
 }
 
 /// Solves the plate of unit thickness and modulus under forces by freedom (x and y of each node),
-/// some freedoms held. Order h² in displacement and in the stress at the centres. `None` where it
-/// is not held enough, or a number is not finite.
+/// some freedoms held. The stress is of order h² in the cell. `None` where the plate is not held
+/// enough, or a number is not finite.
 pub(super) fn plate(grid: Grid, poisson: f64, forces: &[f64], held: &[usize]) -> Option<Field> {
     let [width_m, height_m] = grid.cell_m();
     let cell = cell_stiffness(width_m, height_m, poisson);
@@ -90,7 +88,7 @@ pub(super) fn plate(grid: Grid, poisson: f64, forces: &[f64], held: &[usize]) ->
     };
     let cells = (0..grid.cells[0]).flat_map(|i| (0..grid.cells[1]).map(move |j| (i, j)));
     let centres = cells.map(|(column, row)| at_centre(column, row)).collect();
-    Some(Field { grid, centres, displacement: u })
+    Some(Field { grid, centres })
 }
 
 impl Field {
