@@ -5,6 +5,7 @@
 //! any load was looked at, and said in the note of the case.
 
 mod case;
+mod chosen;
 mod field;
 mod lines;
 mod loaded;

@@ -113,31 +113,21 @@ pub(super) fn stress(poisson: f64) -> Option<Field> {
 }
 
 /// The beam of stress lines: bars of whole roads, and as many lines as come nearest to the mass.
-///
-/// Lines of both families start at mid-depth, evenly along the span, an even number since the axis of
-/// symmetry has a place without directions, and end where they touch the enclosure. A seed nearer than a bar's thickness to a line of its family starts none: a line that
-/// dips through mid-depth twice is met by two seeds.
 pub(super) fn from_lines(
     stress: &Field,
     roads: usize,
     density_kg_m3: f64,
     bond: f64,
 ) -> Option<Printed> {
-    let inner = wall(roads, layers() / 2, road_m(), bond)?;
-    let enclosure = wall(ENCLOSURE_ROADS, layers(), road_m(), bond)?;
-    let inner_m = roads as f64 * road_m();
-    let of = |count: usize| {
-        let net = net_of_lines(&seeded(stress, count, inner_m), inner_m);
-        Printed { net, inner, inner_m, enclosure, count }
-    };
+    let of = |count: usize| from_seeds(stress, roads, count, bond);
     let mass_kg = |printed: &Printed| printed.volume_m3() * density_kg_m3;
-    let (mut few, mut many) = (of(2), of(4));
+    let (mut few, mut many) = (of(2)?, of(4)?);
     while mass_kg(&many) <= MASS_KG && many.count < SEEDS_MOST {
-        let more = of(2 * many.count);
+        let more = of(2 * many.count)?;
         few = std::mem::replace(&mut many, more);
     }
     while many.count - few.count > 2 {
-        let middle = of((few.count + many.count) / 4 * 2);
+        let middle = of((few.count + many.count) / 4 * 2)?;
         if mass_kg(&middle) <= MASS_KG {
             few = middle;
         } else {
@@ -146,6 +136,23 @@ pub(super) fn from_lines(
     }
     let off = |printed: &Printed| (mass_kg(printed) - MASS_KG).abs();
     Some(if off(&few) <= off(&many) { few } else { many })
+}
+
+/// A beam of stress lines from so many seeds of each family.
+///
+/// Lines of both families start at mid-depth, evenly along the span, an even number since the axis of
+/// symmetry has a place without directions, and end where they touch the enclosure. A seed nearer
+/// than a bar's thickness to a line of its family starts none: a line that dips through mid-depth
+/// twice is met by two seeds.
+pub(super) fn from_seeds(stress: &Field, roads: usize, count: usize, bond: f64) -> Option<Printed> {
+    let inner_m = roads as f64 * road_m();
+    Some(Printed {
+        net: net_of_lines(&seeded(stress, count, inner_m), inner_m),
+        inner: wall(roads, layers() / 2, road_m(), bond)?,
+        inner_m,
+        enclosure: wall(ENCLOSURE_ROADS, layers(), road_m(), bond)?,
+        count,
+    })
 }
 
 fn net_of_lines(lines: &[Line], inner_m: f64) -> Net {

@@ -1,7 +1,8 @@
 //! Nets, sections and frames of the two beams; what they must respect whatever they come to.
 
 use super::*;
-use case::{MICHELL_M, Pair};
+use case::MICHELL_M;
+use chosen::Pair;
 use lines::{Family, Region};
 use loaded::{Loaded, Made};
 use net::{Line, Part, net};
