@@ -18,7 +18,7 @@ const MAY_USE: [(&str, &[&str]); 22] = [
     ("process", &["interval", "pose"]),
     ("calibration", &["process", "interval"]),
     ("structure", &["pose"]),
-    ("validation", &["process", "interval"]),
+    ("validation", &["structure", "process", "interval", "pose"]),
     ("finding", &["interval", "pose"]),
     ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),
     ("toolpath", &["cell", "parry", "pose"]),

@@ -8,6 +8,8 @@
 
 mod assembly;
 mod balance;
+mod balanced;
+mod beads;
 mod beam;
 mod buckling;
 pub mod corotational;
@@ -21,6 +23,7 @@ mod growing;
 mod lanczos;
 mod ldl;
 mod model_factor;
+mod plastic;
 mod section;
 mod solve;
 mod stages;
@@ -30,12 +33,15 @@ mod strength;
 mod tests;
 mod trial;
 mod weld;
+mod yielding;
 
+pub use beads::{Bead, BeadsFault, Bundle, bundle, torsion_ceiling_m4};
 pub use buckling::{Buckled, BucklingAsk, BucklingError, Mode, buckling};
 pub use euler::{EULER_FLAG, Slender, slender};
 pub use first_yield::{Criterion, FirstYield, first_yield};
 pub use frame::{Frame, FrameFault, Member, NodeLoad, Support};
 pub use model_factor::model_factor;
+pub use plastic::{Collapse, plastic_bound};
 pub use section::{Elastic, Section};
 pub use solve::{Held, Load, Solution, SolveError, solve};
 pub use stages::{Ask, Stage, StageRecord, StageState, solve_stages};

@@ -121,6 +121,18 @@ impl<'a> Held<'a> {
         Ok(Self { frame, supports, beams, pattern, active, values, factor })
     }
 
+    /// Makes every member stiffer or softer by a factor; pattern and order of elimination stay.
+    pub(crate) fn rescale(&mut self, by: &[f64]) -> Result<(), SolveError> {
+        for (beam, by) in self.beams.iter_mut().zip(by) {
+            beam.stiffness *= *by;
+            beam.strain_load *= *by;
+        }
+        let parts = parts(self.frame.members(), &self.beams, &[]);
+        self.values = self.pattern.assemble(parts, &self.active);
+        self.factor = self.pattern.factor(&self.values, &self.active)?;
+        Ok(())
+    }
+
     /// Displacements under forces in the freedoms of the frame; what acts on held freedoms goes into
     /// the supports.
     pub(crate) fn displacement(&self, forces: &[f64]) -> Vec<f64> {

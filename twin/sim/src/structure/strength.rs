@@ -91,7 +91,7 @@ impl Cut {
     }
 
     /// Axial force (tension positive), bending moment (vector across) and torque at a section.
-    fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
+    pub(super) fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
         let axial_n = self.axial_n(x, s);
         let moment = self.moment(x, s);
         let torque = moment.dot(x);
@@ -99,7 +99,7 @@ impl Cut {
     }
 
     /// Ends, and where the moment may peak between them: no shear along or across the weight.
-    fn stations(&self, x: &Vector, length_m: f64) -> [f64; 4] {
+    pub(super) fn stations(&self, x: &Vector, length_m: f64) -> [f64; 4] {
         let line = self.line_n_per_m - x * x.dot(&self.line_n_per_m);
         let steep = line.norm_squared();
         let no_shear = if steep > 0.0 { -self.force_n.dot(&line) / steep } else { 0.0 };

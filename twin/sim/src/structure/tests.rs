@@ -4,8 +4,11 @@
 
 mod brute_force;
 mod buckles;
+mod bundles;
 mod changes;
 mod closed_forms;
+mod collapse;
+mod domains;
 pub(super) mod grows;
 mod peers;
 mod sequence;

@@ -1,8 +1,9 @@
 //! The laws against what others measured, printed or set as a default.
 //!
 //! One file to a topic, one [`Case`] to a source; `twin validate` prints them. What a source says is
-//! typed here with its place; what we say is computed by the laws of `process` with the materials
-//! of the library. A number outside its band carries a written reason.
+//! typed here with its place; what we say is computed by the laws of `process`, and the mechanics of
+//! `structure` where a source tested a frame, with the materials of the library. A number outside its
+//! band carries a written reason.
 
 use crate::interval::Interval;
 use crate::process::{LightRing, Material};
@@ -16,6 +17,7 @@ mod program;
 mod sag;
 mod sag_table;
 mod shrinkage;
+mod slam_beam;
 mod strand;
 mod strength;
 #[cfg(test)]
@@ -235,7 +237,7 @@ impl Case {
 
 /// All published, paper, practice and reference cases, topic by topic.
 ///
-/// Deterministic; some milliseconds.
+/// Deterministic; under a second, nearly all of it the frames of `slam_beam`.
 pub fn cases(library: &Library<'_>) -> Vec<Case> {
     let topics = [
         heat::cases,
@@ -244,6 +246,7 @@ pub fn cases(library: &Library<'_>) -> Vec<Case> {
         bead::cases,
         cure::cases,
         shrinkage::cases,
+        slam_beam::cases,
         strength::cases,
         program::cases,
     ];
