@@ -113,8 +113,8 @@ impl From<Stuck> for BucklingError {
 /// 0.4 % with ten).
 ///
 /// One sparse factorisation, of the undivided frame, serves the solution and 20 to 60 solves per
-/// mode. A frame far more in tension than in compression takes more, or ends in
-/// [`BucklingError::NotConverged`].
+/// mode. A frame far more in tension than in compression takes more; pulled more than 1e9 times harder
+/// than it is pressed, rounding may leave only [`BucklingError::NotConverged`].
 ///
 /// # Errors
 /// [`BucklingError`].
@@ -154,9 +154,8 @@ pub(crate) fn critical(of: &Standing, ask: BucklingAsk) -> Result<Vec<Mode>, Buc
     while found.len() < ask.modes {
         let near = if found.is_empty() { ask.near } else { None };
         let start = start(&pencil, found.len(), near);
-        match largest(&pencil, &found, &start)? {
-            Some(pair) => found.push(pair),
-            None => break,
+        if !largest(&pencil, &mut found, &start)? {
+            break;
         }
     }
     found.sort_by(|a, b| b.theta.total_cmp(&a.theta));

@@ -3,7 +3,7 @@
 //! `K⁻¹ G` is symmetric there whatever the signs of G. Every vector is made orthogonal to all
 //! earlier ones, twice over, so that none comes back by rounding.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 use super::divided::Pencil;
 
@@ -38,8 +38,9 @@ pub(crate) struct Stuck {
     pub(crate) solves: usize,
 }
 
-/// The largest positive eigenvalue of what the `found` ones leave, with its vector; `None` where no
-/// positive one is left. Finding pair after pair so, equal eigenvalues come as often as they occur.
+/// Finds one more pair: the largest positive eigenvalue of what the `found` ones leave, with its
+/// vector; false where no positive one is left. Finding pair after pair so, equal eigenvalues come
+/// as often as they occur.
 ///
 /// `start` is any vector with a part in the wanted one. Cost: a solve, three products and, at step
 /// m, 4 m dot products; memory a vector per step.
@@ -48,9 +49,9 @@ pub(crate) struct Stuck {
 /// [`Stuck`] after [`MOST_SOLVES`] solves.
 pub(crate) fn largest(
     pencil: &Pencil,
-    found: &[Pair],
+    found: &mut Vec<Pair>,
     start: &[f64],
-) -> Result<Option<Pair>, Stuck> {
+) -> Result<bool, Stuck> {
     let mut basis = Basis::past(found);
     let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
     let mut next = basis.remainder(pencil, pencil.solve(&pencil.geometric(start)));
@@ -59,7 +60,7 @@ pub(crate) fn largest(
         return Err(best);
     }
     if next.norm <= NOTHING * next.before {
-        return Ok(None);
+        return Ok(false);
     }
     for step in 1..MOST_SOLVES {
         basis.push(next);
@@ -73,12 +74,14 @@ pub(crate) fn largest(
             // where a number is not finite there is no top
             let Some((theta, weights, widest)) = top(&diagonal, &beside) else { return Err(best) };
             if spent && theta <= NOTHING * widest {
-                return Ok(None);
+                return Ok(false);
             }
             let off = next.norm * weights[weights.len() - 1].abs() / theta.abs();
             best = Stuck { theta, residual: off, ..best };
             if theta > 0.0 && (spent || off <= WANTED) {
-                return basis.finish(pencil, found.len(), &weights, best).map(Some);
+                let vector = basis.weighted(found.len(), &weights);
+                join(pencil, found, checked(pencil, vector, best.solves))?;
+                return Ok(true);
             }
         }
         if spent {
@@ -129,33 +132,73 @@ impl Basis {
         self.vectors.push(next.vector);
     }
 
-    /// The vector of some weights on those after `first`, checked afresh.
-    fn finish(
-        &self,
-        pencil: &Pencil,
-        first: usize,
-        weights: &[f64],
-        at: Stuck,
-    ) -> Result<Pair, Stuck> {
-        let mut vector = vec![0.0; pencil.freedoms()];
-        for (weight, each) in weights.iter().zip(&self.vectors[first..]) {
-            add(&mut vector, *weight, each);
-        }
-        let norm = dot(&vector, &pencil.elastic(&vector)).sqrt();
-        vector.iter_mut().for_each(|value| *value /= norm);
-        let worked = pencil.geometric(&vector);
-        // the quotient of the vector itself: its error is that of the vector squared
-        let theta = dot(&vector, &worked);
-        let mut gap = pencil.solve(&worked);
-        add(&mut gap, -theta, &vector);
-        let residual = dot(&gap, &pencil.elastic(&gap)).max(0.0).sqrt() / theta;
-        let solves = at.solves + 1;
-        if residual <= ACCEPTED {
-            Ok(Pair { theta, vector, residual, solves })
-        } else {
-            Err(Stuck { theta, residual, solves })
-        }
+    /// The vector of some weights on those after `first`.
+    fn weighted(&self, first: usize, weights: &[f64]) -> Vec<f64> {
+        combined(weights.iter().copied().zip(self.vectors[first..].iter().map(Vec::as_slice)))
     }
+}
+
+/// A vector of norm 1 with its quotient and residual, afresh.
+fn checked(pencil: &Pencil, mut vector: Vec<f64>, solves: usize) -> Pair {
+    let norm = dot(&vector, &pencil.elastic(&vector)).sqrt();
+    vector.iter_mut().for_each(|value| *value /= norm);
+    let worked = pencil.geometric(&vector);
+    // the quotient of the vector itself: its error is that of the vector squared
+    let theta = dot(&vector, &worked);
+    let mut gap = pencil.solve(&worked);
+    add(&mut gap, -theta, &vector);
+    let residual = dot(&gap, &pencil.elastic(&gap)).max(0.0).sqrt() / theta;
+    Pair { theta, vector, residual, solves: solves + 1 }
+}
+
+/// Puts a new pair to those found.
+///
+/// The new vector is orthogonal to those found as they are, not as they should be. What they lack,
+/// `r = K⁻¹ G x₁ - θ₁ x₁`, comes back in its residual as `x₂ᵀ K r`, relative to θ₂ larger by
+/// `θ₁/θ₂`: 1e-6 of the first is 1e-3 of a second a thousand times smaller. All of it lies among
+/// the vectors found, so turning them together (Rayleigh and Ritz) takes it out but for its square.
+fn join(pencil: &Pencil, found: &mut Vec<Pair>, new: Pair) -> Result<(), Stuck> {
+    let short = new.residual > WANTED;
+    found.push(new);
+    if short && found.len() > 1 {
+        turn(pencil, found);
+    }
+    // not the other way about: a residual that is not a number is none to accept
+    let sound = |pair: &Pair| pair.residual <= ACCEPTED;
+    match found.iter().find(|pair| !sound(pair)) {
+        None => Ok(()),
+        Some(&Pair { theta, residual, solves, .. }) => Err(Stuck { theta, residual, solves }),
+    }
+}
+
+/// The best vectors of `G x = θ K x` among all combinations of those found.
+fn turn(pencil: &Pencil, found: &mut [Pair]) {
+    let images: Vec<Vec<f64>> = found.iter().map(|pair| pencil.geometric(&pair.vector)).collect();
+    let within = |a: usize, b: usize| dot(&found[a.max(b)].vector, &images[a.min(b)]);
+    let Some(eigen) = spectrum(DMatrix::from_fn(found.len(), found.len(), within)) else { return };
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let turned: Vec<Vec<f64>> = order
+        .into_iter()
+        .map(|column| {
+            let weights = eigen.eigenvectors.column(column);
+            let parts = weights.iter().zip(found.iter());
+            combined(parts.map(|(weight, pair)| (*weight, pair.vector.as_slice())))
+        })
+        .collect();
+    for (pair, vector) in found.iter_mut().zip(turned) {
+        *pair = checked(pencil, vector, pair.solves);
+    }
+}
+
+/// The sum of vectors by their weights; there is at least one.
+fn combined<'a>(parts: impl Iterator<Item = (f64, &'a [f64])>) -> Vec<f64> {
+    let mut sum = Vec::new();
+    for (weight, vector) in parts {
+        sum.resize(vector.len(), 0.0);
+        add(&mut sum, weight, vector);
+    }
+    sum
 }
 
 /// Largest eigenvalue of a symmetric tridiagonal matrix, its vector, and the largest magnitude.
@@ -169,9 +212,14 @@ fn top(diagonal: &[f64], beside: &[f64]) -> Option<(f64, Vec<f64>, f64)> {
         1 => beside[row.min(column)],
         _ => 0.0,
     });
-    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, 1000 + 100 * size)?;
+    let eigen = spectrum(matrix)?;
     let (at, theta) = eigen.eigenvalues.argmax();
     Some((theta, eigen.eigenvectors.column(at).iter().copied().collect(), eigen.eigenvalues.amax()))
+}
+
+fn spectrum(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, Dyn>> {
+    let most = 1000 + 100 * matrix.nrows();
+    SymmetricEigen::try_new(matrix, f64::EPSILON, most)
 }
 
 /// In eight sums side by side: one would wait for itself at every step.

@@ -1,9 +1,11 @@
 //! MacNeal and Harder's beams (A proposed standard set of problems, 1985): straight, twisted, curved.
+//! Buckling of chains.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::buckles::parts;
 use super::*;
-use crate::structure::solve;
+use crate::structure::{EULER_FLAG, buckling, slender, solve};
 
 /// Solid rectangle of full width along y and full height along z; J by Roark's formula for it
 /// (0.3 %), shear 5/6.
@@ -108,4 +110,35 @@ fn a7_curved_beam() {
         near(got, wanted, 1e-3);
         near(got, printed, 1.5e-2);
     }
+}
+
+/// Two hundred members end to end: what rounding leaves of an ill-conditioned frame.
+#[test]
+fn a_long_chain_buckles_as_one() {
+    let frame = chain(Vector::new(0.2, 0.1, 1.0), 2.0, 200);
+    let x = Vector::new(0.2, 0.1, 1.0).normalize();
+    let load = pushed(200, [-x.x, -x.y, -x.z, 0.0, 0.0, 0.0]);
+    let ei = 3.5e9 * Section::circle(2e-3).iy_m4;
+    for count in [1, 4] {
+        let mode = buckling(&frame, &clamped([0]), &load, parts(count)).unwrap().remove(0);
+        near(mode.factor, PI * PI * ei / 16.0, 1e-6);
+        assert_eq!((mode.member, mode.station), (199, 1.0));
+        assert!(mode.region.len() > 50);
+    }
+}
+
+/// Four members in a line, free at the top: far gone where the screen still sees nothing.
+#[test]
+fn the_screen_sees_members_not_frames() {
+    let frame = chain(Vector::z(), 1.0, 4);
+    let rod = frame.members()[0];
+    let push = PI * PI * rod.elastic.e_pa * rod.section.iy_m4 / 4.0;
+    let load = pushed(4, [0.0, 0.0, -push, 0.0, 0.0, 0.0]);
+    let held = clamped([0]);
+    near(buckling(&frame, &held, &load, parts(2)).unwrap()[0].factor, 1.0, 1e-4);
+    let solution = solve(&frame, &held, &load).unwrap();
+    assert!(slender(&frame, &solution, [0.0; 3], EULER_FLAG).unwrap().is_empty());
+    let all = slender(&frame, &solution, [0.0; 3], 0.0).unwrap();
+    assert_eq!(all.len(), 4);
+    near(all[0].ratio, 1.0 / 64.0, 1e-9);
 }
