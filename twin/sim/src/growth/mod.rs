@@ -6,12 +6,16 @@
 mod build;
 mod landing;
 mod loads;
+mod riding;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_riding;
 
 pub use build::{Built, StrandLaw, build};
 pub use landing::Landing;
 pub use loads::LoadResult;
+pub use riding::Shaken;
 
 use crate::cell::Job;
 use crate::deposit::{Contact, Deposit};
@@ -41,6 +45,9 @@ pub struct StageResult {
     pub utilisation: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: f64,
+    /// What a bed that rides on the arm does to it while it stands, beyond weight; `None` where the bed
+    /// stands still.
+    pub shaken: Option<Shaken>,
 }
 
 /// What became of the frame.
@@ -89,8 +96,14 @@ pub fn grow(
     let stages: Vec<Stage> = plan.iter().map(|planned| planned.stage.clone()).collect();
     let ask = Ask { staged: true, strengths: &strengths, keep: &keep };
     let records = solve_stages(&built.weightless_strain(), &stages, ask)?;
-    let results =
-        plan.iter().zip(&records).map(|(planned, record)| result(planned, record)).collect();
+    let shaken = riding::shaken(job, printed.motion, &built, &plan)?;
+    riding::judge(job, &built, &plan, &shaken, findings);
+    let results = plan
+        .iter()
+        .zip(&records)
+        .zip(shaken)
+        .map(|((planned, record), shaken)| StageResult { shaken, ..result(planned, record) })
+        .collect();
     for (planned, record) in plan.iter().zip(&records) {
         floats(job, printed, &built, planned, record, findings);
     }
@@ -178,6 +191,7 @@ fn result(planned: &Planned, record: &StageRecord) -> StageResult {
         node: one_shot.map(|state| state.max_node),
         utilisation: one_shot.and_then(|state| state.utilisation).map(|used| used.value),
         residual: one_shot.map_or(0.0, |state| state.residual),
+        shaken: None,
     }
 }
 

@@ -45,10 +45,6 @@ impl Ridden {
             }
         })
     }
-
-    pub(crate) fn is_finite(&self) -> bool {
-        self.numbers().iter().all(|number| number.is_finite())
-    }
 }
 
 /// Force per mass of a unit case at a place.
