@@ -9,6 +9,7 @@ fn leaning(acceleration_m_s2: f64) -> Print {
     let a = strand("a", &[[0.0, 0.0, 1.0], [40.0, 0.0, 41.0]], FROM_BED);
     let mut job = job(&text("kirkman-sda10d", "", &a));
     job.cell.controller.acceleration_m_s2 = acceleration_m_s2;
+    job.cell.controller.jerk_m_s3 = acceleration_m_s2 / 0.025;
     job.cell.extruder.travel_m_s = 0.2;
     job.strands[0].settings.retract_m = 0.03;
     Print::of(job)

@@ -124,7 +124,7 @@ impl Controller<'_> {
             speeds_m_s: true_speed::by_times(self.job, &way.stations, &asked_s, path),
             at_s: asked_s.clone(),
             needs,
-            rides: Vec::new(),
+            rides: rides::of_times(self.job, &way.stations, &asked_s),
         };
         if strand.times_s.is_some() {
             return without_ramps(Vec::new());

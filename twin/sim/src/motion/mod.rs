@@ -103,8 +103,7 @@ pub struct Motion {
     pub releases: Vec<(usize, usize, f64)>,
     /// What prints ask of the drives at the asked speed: the worst of each kind per strand.
     pub needs: Vec<Need>,
-    /// How the bed moves, where it rides on the arm, in order of time; nothing for strands whose times
-    /// the job gives.
+    /// How the bed moves, where it rides on the arm, in order of time.
     pub rides: Vec<Ride>,
     /// True speed of the orifice after every sample of every strand, m/s; empty where nothing is
     /// reached.

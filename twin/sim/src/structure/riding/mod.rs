@@ -6,8 +6,9 @@
 //! a stage answer every posture that the arm takes while the stage stands.
 //!
 //! The frame follows at once: its own vibration is not modelled, nor that it drags on the arm.
-//! Mass sits on the axes of the members: what the width of a section adds to its turning inertia (a
-//! part `(r/L)²` of the whole) is left out.
+//! Mass sits on the axes of the members: what the width of a section adds to its turning inertia,
+//! `ρ I α` per length beside `ρ A L² α`, is left out, and so is all that a member does that turns about
+//! its own axis.
 
 mod field;
 mod unit;
@@ -29,8 +30,8 @@ pub(crate) type Twelve = [f64; UNITS];
 
 /// The answers of one stage to the twelve unit cases.
 ///
-/// Made once per stage: twelve solves with its factor, O(12 × numbers in the factor), and 2.3 kB
-/// per node and member. Any posture is then a sum of twelve.
+/// Made once per stage: twelve solves with its factor, O(12 × numbers in the factor), and 0.6 kB
+/// per node and per born member. Any posture is then a sum of twelve.
 #[derive(Debug, Clone)]
 pub struct Riding<'a> {
     frame: &'a Frame,
