@@ -66,7 +66,7 @@ fn standing(plan: &[Planned], printed: usize, time_s: f64) -> Option<usize> {
     plan[..begun].iter().rposition(|planned| planned.printed <= printed)
 }
 
-fn farthest(motion: &Motion, riding: &Riding, rides: &[&Ride]) -> Option<Shaken> {
+fn farthest(motion: &Motion, riding: &Riding<'_>, rides: &[&Ride]) -> Option<Shaken> {
     let mut worst: Option<Shaken> = None;
     for ride in rides {
         let at = Ridden {
