@@ -42,6 +42,9 @@ pub struct Stage {
     pub node_utilisation: Option<f64>,
     /// The node.
     pub node: Option<usize>,
+    /// How far a bed that rides on the arm shakes a node while the stage stands, beyond weight, m; null: the bed stands
+    /// still.
+    pub shaken_m: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: Option<f64>,
 }
@@ -152,6 +155,7 @@ pub(crate) fn stage(job: &Job, built: &Built, stage: &growth::StageResult) -> St
         member: stage.member.as_ref().map(|used| used.at),
         node_utilisation: share(&stage.weld),
         node: stage.weld.as_ref().map(|used| built.welds[used.at].node),
+        shaken_m: stage.shaken.and_then(|shaken| number(shaken.translation_m)),
         residual: number(stage.residual),
     }
 }

@@ -160,6 +160,7 @@ pub(crate) fn report() -> Report {
             member: Some(2),
             node_utilisation: Some(0.05),
             node: Some(3),
+            shaken_m: None,
             residual: Some(1e-12),
         }],
         landings: vec![Landing {

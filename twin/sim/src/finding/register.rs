@@ -93,6 +93,7 @@ pub enum Code {
     S406,
     S407,
     S408,
+    S409,
     E501,
     E502,
     E504,
@@ -102,7 +103,7 @@ pub enum Code {
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 41] = [
         Self::R101,
         Self::R102,
         Self::R103,
@@ -138,6 +139,7 @@ impl Code {
         Self::S406,
         Self::S407,
         Self::S408,
+        Self::S409,
         Self::E501,
         Self::E502,
         Self::E504,
@@ -183,6 +185,7 @@ impl Code {
             Self::S406 => "S406",
             Self::S407 => "S407",
             Self::S408 => "S408",
+            Self::S409 => "S409",
             Self::E501 => "E501",
             Self::E502 => "E502",
             Self::E504 => "E504",
@@ -243,6 +246,7 @@ impl Code {
             Self::S406 => "finished part gives way under its loads",
             Self::S407 => "finished part yields under its loads",
             Self::S408 => "finished part collapses under its loads",
+            Self::S409 => "part shakes on the moving bed",
             Self::E501 => "too much on the flange",
             Self::E502 => "hose pulled or twisted too far",
             Self::E504 => "program takes too long",

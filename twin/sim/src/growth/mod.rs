@@ -10,16 +10,20 @@ mod loads;
 mod nozzle;
 mod part;
 mod remedy;
+mod riding;
 mod stage;
 mod strand_law;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_riding;
 mod welds;
 
 pub use build::{Built, build};
 pub use landing::Landing;
 pub use loads::{LoadResult, Yield};
 pub use remedy::{Change, Remedy};
+pub use riding::Shaken;
 pub use stage::{StageResult, State, Used};
 pub use strand_law::StrandLaw;
 pub use welds::Bond;
@@ -99,7 +103,10 @@ pub fn grow(
         .zip(in_all?)
         .map(|(by_weight, in_all)| Record { by_weight, in_all })
         .collect();
-    let results = stage::results(job, printed, &built, &plan, &records, findings);
+    let shaken = riding::shaken(job, printed.motion, &built, &plan)?;
+    riding::judge(job, &built, &plan, &shaken, findings);
+    let mut results = stage::results(job, printed, &built, &plan, &records, findings);
+    results.iter_mut().zip(shaken).for_each(|(result, shaken)| result.shaken = shaken);
     for (planned, record) in plan.iter().zip(&records) {
         floats(job, printed, &built, planned, &record.in_all, findings);
     }

@@ -1,7 +1,7 @@
 //! What each stage came to, and S403 to S405: members, buckling and nodes while printing.
 
 use super::part::Part;
-use super::{Built, Planned, Printed, Record, imperfect};
+use super::{Built, Planned, Printed, Record, Shaken, imperfect};
 use crate::cell::Job;
 use crate::finding::{Check, Code, Findings, Site, Words};
 use crate::interval::Interval;
@@ -69,6 +69,9 @@ pub struct StageResult {
     pub followed: Option<f64>,
     /// Whether a buckling factor was asked for and not found.
     pub buckling_failed: bool,
+    /// What a bed that rides on the arm does to it while it stands, beyond weight; `None` where the bed stands
+    /// still.
+    pub shaken: Option<Shaken>,
     /// Forces left out of balance relative to the loads, one-shot by weight.
     pub residual: f64,
 }
@@ -142,6 +145,7 @@ fn result(
         buckling: buckling.and_then(|found| found.as_ref().ok()).copied(),
         followed: None,
         buckling_failed: buckling.is_some_and(Result::is_err),
+        shaken: None,
         residual: one_shot.map_or(0.0, |state| state.residual),
     }
 }

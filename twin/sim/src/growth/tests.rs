@@ -8,10 +8,10 @@ use crate::structure::{At, Section};
 use crate::test_job::{job, strand, text};
 use crate::toolpath;
 
-const RADIUS_M: f64 = 1e-3;
+pub(super) const RADIUS_M: f64 = 1e-3;
 
 /// PLA-like, 2 mm, fully set, without shrinkage.
-const LAW: StrandLaw = StrandLaw {
+pub(super) const LAW: StrandLaw = StrandLaw {
     diameter_m: 2.0 * RADIUS_M,
     area_fraction: 1.0,
     stiffness_fraction: 1.0,
@@ -28,9 +28,9 @@ const BOND: Bond =
     Bond { area_m2: 1e-6, tension_pa: Interval { nominal: 40e6, low: 30e6, high: 50e6 } };
 
 /// A print as planned: beads where the strands are.
-struct Print {
-    job: Job,
-    motion: Motion,
+pub(super) struct Print {
+    pub(super) job: Job,
+    pub(super) motion: Motion,
     deposit: Deposit,
     contacts: Vec<Contact>,
     bonds: Vec<Bond>,
@@ -39,7 +39,10 @@ struct Print {
 
 impl Print {
     fn new(more: &str, strands: &[String]) -> Self {
-        let job = job(&text("kr10-cone", more, &strands.join(",")));
+        Self::of(job(&text("kr10-cone", more, &strands.join(","))))
+    }
+
+    pub(super) fn of(job: Job) -> Self {
         let motion = motion::plan(&job, &toolpath::paths(&job));
         let bead = |printing: &motion::Printing| {
             let points = job.strands[printing.strand].points.clone();
@@ -69,14 +72,14 @@ impl Print {
         build(&self.job, &self.printed())
     }
 
-    fn grown(&self) -> (Growth, Vec<Finding>) {
+    pub(super) fn grown(&self) -> (Growth, Vec<Finding>) {
         let mut findings = Findings::default();
         let growth = grow(&self.job, &self.printed(), &mut findings).expect("a small frame");
         (growth, findings.sorted())
     }
 }
 
-const FROM_BED: &str = ", \"start\": { \"join\": \"bed\" }";
+pub(super) const FROM_BED: &str = ", \"start\": { \"join\": \"bed\" }";
 
 #[test]
 fn a_crossing_makes_one_link_of_the_length_between_the_axes() {

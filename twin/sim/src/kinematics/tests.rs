@@ -10,6 +10,7 @@ use super::numeric::Xorshift;
 use super::*;
 use crate::pose::{Pose, from_xyz_rpy};
 
+mod carried;
 mod degenerate;
 mod forward;
 mod inverse;

@@ -13,6 +13,7 @@
 use rayon::prelude::*;
 
 use super::drives::{Drives, Need};
+use super::rides::{self, Ride};
 use super::{Act, Leg, Moment, Motion, Printing, Station, Way, between, strand, true_speed};
 use crate::cell::{Interpolation, Job, Strand};
 use crate::finding::Phase;
@@ -39,6 +40,7 @@ pub(super) fn timed(job: &Job, paths: &[Path], acts: Vec<Act>) -> Motion {
         printings: Vec::new(),
         releases: Vec::new(),
         needs: Vec::new(),
+        rides: Vec::new(),
         speeds_m_s: vec![Vec::new(); job.strands.len()],
         total_s: 0.0,
         lost: Vec::new(),
@@ -81,6 +83,9 @@ fn go(job: &Job, motion: &mut Motion, way: Way, times: Times) {
         motion.speeds_m_s[index] = times.speeds_m_s;
         motion.printings.push(Printing { strand: index, start_s, end_s });
     }
+    let leg = motion.legs.len();
+    let placed = |ride: Ride| Ride { leg, time_s: start_s + ride.time_s, ..ride };
+    motion.rides.extend(times.rides.into_iter().map(placed));
     motion.legs.push(Leg { phase, strand, printed, moments, unreached });
 }
 
@@ -89,6 +94,7 @@ fn go(job: &Job, motion: &mut Motion, way: Way, times: Times) {
 struct Times {
     at_s: Vec<f64>,
     needs: Vec<Need>,
+    rides: Vec<Ride>,
     /// Of a print: true speed after every sample of the strand, m/s.
     speeds_m_s: Vec<f64>,
 }
@@ -105,10 +111,8 @@ impl Controller<'_> {
             (Phase::Print, Some(strand)) => {
                 self.print_times(way, &self.paths[strand], &self.job.strands[strand])
             }
-            (Phase::Approach | Phase::Retract, _) => {
-                Times { at_s: self.straight_times(way), ..Times::default() }
-            }
-            _ => Times { at_s: self.joint_times(way), ..Times::default() },
+            (Phase::Approach | Phase::Retract, _) => self.straight_times(way),
+            _ => self.joint_times(way),
         }
     }
 
@@ -120,6 +124,7 @@ impl Controller<'_> {
             speeds_m_s: true_speed::by_times(self.job, &way.stations, &asked_s, path),
             at_s: asked_s.clone(),
             needs,
+            rides: rides::of_times(self.job, &way.stations, &asked_s),
         };
         if strand.times_s.is_some() {
             return without_ramps(Vec::new());
@@ -133,10 +138,14 @@ impl Controller<'_> {
         let slowed = self.exceeds(&asked);
         let law = if slowed { timing::time_law(&stations, &self.limits(true)) } else { Ok(asked) };
         let Ok(law) = law else { return without_ramps(needs) };
+        Times { needs, speeds_m_s: true_speed::by_law(self.job, &law, path), ..self.by_law(&law) }
+    }
+
+    fn by_law(&self, law: &Law) -> Times {
         Times {
             at_s: law.passings.iter().map(|passing| passing.time_s).collect(),
-            needs,
-            speeds_m_s: true_speed::by_law(self.job, &law, path),
+            rides: rides::of_law(self.job, law),
+            ..Times::default()
         }
     }
 
@@ -166,19 +175,22 @@ impl Controller<'_> {
     }
 
     /// A straight way of the orifice.
-    fn straight_times(&self, way: &Way) -> Vec<f64> {
+    fn straight_times(&self, way: &Way) -> Times {
         let travel_m_s = self.job.cell.extruder.travel_m_s;
         let lengths = self.lengths(way, |tcp_m, _| tcp_m);
         let stations = stations_of(way, &lengths, travel_m_s);
         let limits = Limits { blend_m: 0.0, ..self.limits(true) };
         match timing::time_law(&stations, &limits) {
-            Ok(law) => law.passings.iter().map(|passing| passing.time_s).collect(),
-            Err(_) => self.lengths(way, |tcp_m, joint_s| joint_s.max(tcp_m / travel_m_s)),
+            Ok(law) => self.by_law(&law),
+            Err(_) => Times {
+                at_s: self.lengths(way, |tcp_m, joint_s| joint_s.max(tcp_m / travel_m_s)),
+                ..Times::default()
+            },
         }
     }
 
     /// A way in joint space: the parameter is the time it takes at full speed.
-    fn joint_times(&self, way: &Way) -> Vec<f64> {
+    fn joint_times(&self, way: &Way) -> Times {
         let controller = &self.job.cell.controller;
         let travel_m_s = self.job.cell.extruder.travel_m_s;
         let share = controller.joint_move_share;
@@ -191,8 +203,8 @@ impl Controller<'_> {
             ..self.limits(true)
         };
         match timing::time_law(&stations, &limits) {
-            Ok(law) => law.passings.iter().map(|passing| passing.time_s).collect(),
-            Err(_) => full_s,
+            Ok(law) => self.by_law(&law),
+            Err(_) => Times { at_s: full_s, ..Times::default() },
         }
     }
 

@@ -111,7 +111,7 @@ impl<'a> Drives<'a> {
 }
 
 /// Instants at which a law is looked at: both sides of every change, and the middles.
-fn places(law: &Law) -> impl Iterator<Item = f64> {
+pub(super) fn places(law: &Law) -> impl Iterator<Item = f64> {
     let mut instants: Vec<f64> = law.instants().chain([law.duration_s]).collect();
     let middles: Vec<f64> = instants.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
     instants.extend(middles);

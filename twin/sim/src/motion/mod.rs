@@ -22,6 +22,7 @@ mod measure;
 mod place;
 mod planned;
 mod refine;
+mod rides;
 mod set_tool;
 mod strand;
 #[cfg(test)]
@@ -43,6 +44,7 @@ pub use check::check;
 pub use drives::{Load, Need};
 pub use map::{Across, MapOf, MapState, SpinMap, spin_map};
 pub use measure::{Spot, StrandMotion};
+pub use rides::Ride;
 pub use true_speed::{as_moved, orifice_speed};
 
 use crate::cell::{Job, Step};
@@ -101,6 +103,8 @@ pub struct Motion {
     pub releases: Vec<(usize, usize, f64)>,
     /// What prints ask of the drives at the asked speed: the worst of each kind per strand.
     pub needs: Vec<Need>,
+    /// How the bed moves, where it rides on the arm, in order of time.
+    pub rides: Vec<Ride>,
     /// True speed of the orifice after every sample of every strand, m/s; empty where nothing is
     /// reached.
     pub speeds_m_s: Vec<Vec<f64>>,

@@ -21,6 +21,7 @@ fn motion_of(legs: Vec<Leg>) -> Motion {
         printings: Vec::new(),
         releases: Vec::new(),
         needs: Vec::new(),
+        rides: Vec::new(),
         speeds_m_s: Vec::new(),
         total_s: total_s.unwrap_or_default(),
         lost: Vec::new(),

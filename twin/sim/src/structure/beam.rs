@@ -18,6 +18,8 @@ pub(crate) struct Beam {
     pub(crate) axes: Matrix3<f64>,
     /// Mass per length, kg/m.
     pub(crate) line_kg_per_m: f64,
+    /// `φ = 12 E I/(κ G A L²)` of bending towards y, and towards z; 0 without shear.
+    pub(crate) shear_share: [f64; 2],
     /// Stiffness in the axes of the part, N/m, N, N m.
     pub(crate) stiffness: Matrix12,
     /// Loads at the nodes that do what the initial strain does: `E A ε₀ (-x, 0, +x, 0)`.
@@ -45,6 +47,8 @@ impl Beam {
             length_m,
             axes,
             line_kg_per_m: member.density_kg_m3 * member.section.area_m2,
+            shear_share: [member.section.iz_m4, member.section.iy_m4]
+                .map(|second_moment_m4| shear_share(member, second_moment_m4, length_m)),
             stiffness: turned(&local_stiffness(member, length_m), &axes),
             strain_load,
         }
@@ -60,7 +64,11 @@ impl Beam {
     /// Exact at the nodes, with or without shear (the fixed-end moments are symmetric), and free of
     /// the member's own y and z.
     pub(crate) fn weight_load(&self, gravity_m_s2: [f64; 3]) -> Vector12 {
-        let line = self.line_load(gravity_m_s2);
+        self.line_ends(self.line_load(gravity_m_s2))
+    }
+
+    /// The same of any uniform line load, N/m.
+    pub(crate) fn line_ends(&self, line: Vector) -> Vector12 {
         let force = line * (self.length_m / 2.0);
         let moment = self.axes.column(0).cross(&line) * (self.length_m.powi(2) / 12.0);
         let mut load = Vector12::zeros();
@@ -100,7 +108,7 @@ pub(crate) fn local_stiffness(member: &Member, length_m: f64) -> Matrix12 {
     let planes = [(1, 5, section.iz_m4, 1.0), (2, 4, section.iy_m4, -1.0)];
     for (shift, turn, second_moment_m4, sign) in planes {
         let ei = elastic.e_pa * second_moment_m4;
-        let phi = 12.0 * ei / (section.shear_kappa * elastic.g_pa * section.area_m2 * l * l);
+        let phi = shear_share(member, second_moment_m4, l);
         let b = ei / ((1.0 + phi) * l);
         couple(&mut k, shift, 12.0 * b / (l * l));
         let cross = sign * 6.0 * b / l;
@@ -118,6 +126,13 @@ pub(crate) fn local_stiffness(member: &Member, length_m: f64) -> Matrix12 {
         k[(turn + 6, turn + 6)] = (4.0 + phi) * b;
     }
     k
+}
+
+/// `φ = 12 E I/(κ G A L²)`: what shear adds to bending.
+fn shear_share(member: &Member, second_moment_m4: f64, length_m: f64) -> f64 {
+    let Member { section, elastic, .. } = member;
+    let bending = 12.0 * (elastic.e_pa * second_moment_m4);
+    bending / (section.shear_kappa * elastic.g_pa * section.area_m2 * length_m * length_m)
 }
 
 /// A spring between the same freedom of both nodes.

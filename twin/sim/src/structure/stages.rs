@@ -117,7 +117,11 @@ pub fn solve_stages(
     stages: &[Stage],
     ask: Ask,
 ) -> Result<Vec<StageRecord>, SolveError> {
-    check(frame, stages, &ask)?;
+    if !ask.strengths.is_empty() {
+        check_strengths(frame.members().len(), ask.strengths)?;
+        check_welds(ask.welds, frame.members().len(), frame.nodes().len())?;
+    }
+    check_stages(frame, stages)?;
     let beams = beams(frame);
     let spans = if ask.strengths.is_empty() { Vec::new() } else { spans(frame, &beams) };
     let born = stages.last().map_or(0, |stage| stage.born);
@@ -135,11 +139,8 @@ pub fn solve_stages(
     Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
 }
 
-fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
-    if !ask.strengths.is_empty() {
-        check_strengths(frame.members().len(), ask.strengths)?;
-        check_welds(ask.welds, frame.members().len(), frame.nodes().len())?;
-    }
+/// Members that are there and come in order, numbers that are finite.
+pub(crate) fn check_stages(frame: &Frame, stages: &[Stage]) -> Result<(), SolveError> {
     let mut before = 0;
     for stage in stages {
         check_inputs(frame, &stage.supports, &stage.at_nodes, stage.gravity_m_s2)?;
@@ -166,7 +167,7 @@ fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
 }
 
 /// Nodes that have a member at the end, without those clamped throughout.
-fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
+pub(crate) fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
     let count = frame.nodes().len();
     let born = &frame.members()[..stages.last().map_or(0, |stage| stage.born)];
     let mut clamped = vec![true; count];

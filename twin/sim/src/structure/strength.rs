@@ -44,12 +44,15 @@ pub struct Utilisation {
     pub governs: Governs,
 }
 
-/// Forces on the first end of a member and its weight: enough for every section of it.
+/// Forces on the first end of a member and what it carries: enough for every section of it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut {
     force_n: Vector,
     moment_n_m: Vector,
+    /// At the first end.
     line_n_per_m: Vector,
+    /// How it grows along the member; none by weight, some where the bed turns.
+    growth_n_per_m2: Vector,
 }
 
 impl Cut {
@@ -58,22 +61,19 @@ impl Cut {
             force_n: Vector::from_column_slice(&end_forces[..3]),
             moment_n_m: Vector::from_column_slice(&end_forces[3..6]),
             line_n_per_m,
+            growth_n_per_m2: Vector::zeros(),
         }
     }
 
+    /// Under a line load that goes straight from `lines[0]` at the first end to `lines[1]`.
+    pub(crate) fn linear(end_forces: &[f64], lines: [Vector; 2], length_m: f64) -> Self {
+        let growth_n_per_m2 = (lines[1] - lines[0]) / length_m;
+        Self { growth_n_per_m2, ..Self::new(end_forces, lines[0]) }
+    }
+
     /// Force and moment on the first end, from its node.
-    pub(crate) fn on_first_end(&self) -> (Vector, Vector) {
-        (self.force_n, self.moment_n_m)
-    }
-
-    /// Force and moment on the piece before a section, from what comes after it.
-    pub(crate) fn on_piece(&self, x: &Vector, s: f64) -> (Vector, Vector) {
-        (-(self.force_n + self.line_n_per_m * s), self.moment(x, s))
-    }
-
-    /// `M = -M₁ + s x × F + s²/2 x × w`, from equilibrium of the piece before the section.
-    fn moment(&self, x: &Vector, s: f64) -> Vector {
-        -self.moment_n_m + x.cross(&self.force_n) * s + x.cross(&self.line_n_per_m) * (s * s / 2.0)
+    pub(crate) fn on_first_end(&self) -> [Vector; 2] {
+        [self.force_n, self.moment_n_m]
     }
 
     /// This one and a multiple of another.
@@ -82,32 +82,57 @@ impl Cut {
             force_n: self.force_n + other.force_n * factor,
             moment_n_m: self.moment_n_m + other.moment_n_m * factor,
             line_n_per_m: self.line_n_per_m + other.line_n_per_m * factor,
+            growth_n_per_m2: self.growth_n_per_m2 + other.growth_n_per_m2 * factor,
         }
+    }
+
+    /// Force and moment that the rest of the member puts on the piece before a section, from
+    /// equilibrium of that piece under the line load `w + k s`: `-(F + w s + k s²/2)` and
+    /// `-M₁ + s x × F + s²/2 x × w + s³/6 x × k`.
+    pub(crate) fn on_cut(&self, x: &Vector, s: f64) -> [Vector; 2] {
+        let [half, third] =
+            [2.0, 3.0].map(|part| self.line_n_per_m + self.growth_n_per_m2 * (s / part));
+        let moment =
+            -self.moment_n_m + x.cross(&self.force_n) * s + x.cross(&third) * (s * s / 2.0);
+        [-(self.force_n + half * s), moment]
     }
 
     /// Axial force at a section, tension positive.
     pub(crate) fn axial_n(&self, x: &Vector, s: f64) -> f64 {
-        -(self.force_n + self.line_n_per_m * s).dot(x)
+        self.on_cut(x, s)[0].dot(x)
     }
 
     /// Axial force (tension positive), bending moment (vector across) and torque at a section.
     pub(super) fn at(&self, x: &Vector, s: f64) -> (f64, Vector, f64) {
-        let axial_n = self.axial_n(x, s);
-        let moment = self.moment(x, s);
+        let [force, moment] = self.on_cut(x, s);
         let torque = moment.dot(x);
-        (axial_n, moment - x * torque, torque)
+        (force.dot(x), moment - x * torque, torque)
     }
 
-    /// Ends, and where the moment may peak between them: no shear along or across the weight.
-    pub(super) fn stations(&self, x: &Vector, length_m: f64) -> [f64; 4] {
-        let line = self.line_n_per_m - x * x.dot(&self.line_n_per_m);
-        let steep = line.norm_squared();
-        let no_shear = if steep > 0.0 { -self.force_n.dot(&line) / steep } else { 0.0 };
-        [0.0, length_m, no_shear.clamp(0.0, length_m), 0.5 * length_m]
+    /// Ends, and where the moment may peak between them: no shear along or across what lies across
+    /// the middle (exact where the line load keeps its direction), and the middle.
+    pub(super) fn stations(&self, x: &Vector, length_m: f64) -> [f64; 5] {
+        let middle = self.line_n_per_m + self.growth_n_per_m2 * (length_m / 2.0);
+        let line = middle - x * x.dot(&middle);
+        let [constant, linear, square] =
+            [self.force_n, self.line_n_per_m, self.growth_n_per_m2 / 2.0].map(|v| v.dot(&line));
+        let [one, other] = no_shear(constant, linear, square);
+        let inside = |s: f64| s.clamp(0.0, length_m);
+        [0.0, length_m, inside(one), 0.5 * length_m, inside(other)]
     }
 }
 
+/// Real roots of `c + b s + a s²`; 0 in place of one that is not there.
+fn no_shear(c: f64, b: f64, a: f64) -> [f64; 2] {
+    let root = (b * b - 4.0 * a * c).max(0.0).sqrt();
+    // without cancellation: the large one by addition, the small one by the product of both
+    let sum = -0.5 * (b + root.copysign(b));
+    let safe = |number: f64| if number.is_finite() { number } else { 0.0 };
+    [safe(c / sum), safe(sum / a)]
+}
+
 /// Geometry of a member as the laws need it.
+#[derive(Debug, Clone)]
 pub(crate) struct Span<'a> {
     pub(crate) member: &'a Member,
     pub(crate) x: Vector,

@@ -68,10 +68,10 @@ impl Weld {
         let (mut force_n, mut moment_n_m) = (Vector::zeros(), Vector::zeros());
         for &(member, at) in &self.through {
             let (Some(span), Some(cut)) = (spans.get(member), cuts.get(member)) else { return 0.0 };
-            let (force, moment) = match at {
+            let [force, moment] = match at {
                 At::First => cut.on_first_end(),
-                At::Last => cut.on_piece(&span.x, span.length_m),
-                At::Middle => cut.on_piece(&span.x, 0.5 * span.length_m),
+                At::Last => cut.on_cut(&span.x, span.length_m),
+                At::Middle => cut.on_cut(&span.x, 0.5 * span.length_m),
             };
             force_n += force;
             moment_n_m += moment;
