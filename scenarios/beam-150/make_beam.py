@@ -12,7 +12,7 @@ import sys
 SPAN_MM, DEPTH_MM = 150.0, 37.6
 HALF_WIDTHS_MM = [75.0, 52.0, 29.0]  # of the three arches, at their feet
 CRESTS_MM = [33.6, 22.6, 11.6]  # of the three arches, over the bottom chord
-LAYERS_MM = [0.5, 1.5]  # axes of the beads
+LAYERS_MM = [0.5, 1.35]  # axes of the beads
 PIECES = 24
 PAST_MM = 0.5  # by which a strand runs past the chord it ends on
 
@@ -21,7 +21,7 @@ HEAD = """// A beam of 150 mm span, laid flat in two layers that cross. Written 
   "slam": 1,
   "name": "beam-150",
   "cell": "printer-3axis",
-  "material": "abs",
+  "material": "pla",
   "environment": { "air_c": 23, "air_m_s": 0.1 },
   "process": {
     "speed_mm_s": 5,

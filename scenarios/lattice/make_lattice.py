@@ -70,7 +70,7 @@ def main():
     feet = [(x, y, FOOT_MM) for x in (-half, half) for y in planes.values()]
     supports = ", ".join(f'{{ "at_mm": [{x:.0f}, {y:.0f}, {z:.2f}], "fix": "xyz" }}' for x, y, z in feet)
     middle = [(0, y, CHORD_MM) for y in planes.values()]
-    forces = ", ".join(f'{{ "at_mm": [{x}, {y:.0f}, {z:.2f}], "force_n": [0, 0, -1.5] }}' for x, y, z in middle)
+    forces = ", ".join(f'{{ "at_mm": [{x}, {y:.0f}, {z:.2f}], "force_n": [0, 0, -0.4] }}' for x, y, z in middle)
     with open(sys.argv[1], "w", encoding="utf-8") as file:
         print("\n".join([HEAD, *lines, TAIL % (supports, forces)]), file=file)
 

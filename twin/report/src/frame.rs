@@ -101,6 +101,9 @@ pub struct LoadCase {
     pub first_yield: Option<f64>,
     /// The same by each criterion.
     pub yields: Vec<Yield>,
+    /// Factor on the forces that the members carry for sure if the material is ductile (a plastic lower bound; nodes are not
+    /// asked); null: not a thermoplastic, or too large a frame. Held against nothing.
+    pub plastic_factor: Option<f64>,
     /// Factor on weight and forces together at which the frame, were it perfect, would buckle; null: at none, or not
     /// found.
     pub buckling_factor: Option<f64>,
@@ -199,6 +202,7 @@ pub(crate) fn load(job: &Job, load: &growth::LoadResult) -> LoadCase {
         deflection_m: solved.then_some(load.deflection_m).and_then(number),
         first_yield: load.first_yield().and_then(|found| number(found.factor)),
         yields: load.yields.iter().flatten().map(yielding).collect(),
+        plastic_factor: load.plastic.and_then(number),
         buckling_factor: load.buckling.and_then(number),
         followed_factor: load.followed.and_then(number),
         fault: load.fault.map(|fault| fault.to_string()),

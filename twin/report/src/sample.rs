@@ -211,6 +211,7 @@ pub(crate) fn report() -> Report {
             deflection_m: Some(2.4e-3),
             first_yield: Some(3.2),
             yields: Vec::new(),
+            plastic_factor: None,
             buckling_factor: Some(8.5),
             followed_factor: None,
             fault: None,

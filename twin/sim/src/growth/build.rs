@@ -87,7 +87,7 @@ impl Built {
 }
 
 /// A strength that nothing reaches, Pa.
-const NEVER_PA: f64 = 1e300;
+const NEVER_PA: f64 = 1e100;
 
 /// Stations nearer than this share of a radius are one.
 const SAME_SHARE: f64 = 0.2;

@@ -8,7 +8,7 @@ use crate::pose::{Point, Vector};
 use crate::process::Setting;
 use crate::structure::{
     At, BucklingAsk, Criterion, FirstYield, Frame, Held, Load, Mode, NodeLoad, SolveError,
-    Strength, Support, Weld, first_yield, model_factor,
+    Strength, Support, Weld, first_yield, model_factor, plastic_bound,
 };
 
 /// What a load case came to.
@@ -20,6 +20,9 @@ pub struct LoadResult {
     pub deflection_m: f64,
     /// Factors on the forces at which the first member or weld is used up, by criterion; `None`: not found.
     pub yields: Option<[Yield; 3]>,
+    /// Factor on the forces that the members carry for sure if the material is ductile, by a plastic lower bound; welds are
+    /// not asked. `None`: not a thermoplastic, or too large a frame.
+    pub plastic: Option<f64>,
     /// Factor on weight and forces together at which the frame, were it perfect, would buckle; infinite: at none;
     /// `None`: it could not be found. Two parts per member.
     pub buckling: Option<f64>,
@@ -106,16 +109,19 @@ fn solve_case(
         name: case.name.clone(),
         deflection_m: 0.0,
         yields: None,
+        plastic: None,
         buckling: None,
         followed: None,
         fault: None,
     };
-    match under(&seats, &supports, forces, gravity) {
+    let is_plastic = matches!(job.material.setting, Setting::Thermoplastic(_));
+    match under(&seats, &supports, forces, (gravity, is_plastic)) {
         Ok(answer) => LoadResult {
             deflection_m: answer.deflection_m,
             yields: answer
                 .yields
                 .map(|yields| yields.map(|found| expected(job, printed, built, &seats, &found))),
+            plastic: answer.plastic,
             buckling: answer.buckling,
             followed: answer.followed,
             ..nothing
@@ -127,15 +133,19 @@ fn solve_case(
 struct Answer {
     deflection_m: f64,
     yields: Option<[FirstYield; 3]>,
+    plastic: Option<f64>,
     buckling: Option<f64>,
     followed: Option<f64>,
 }
+
+/// Frames of more members are not asked for a plastic bound: it takes up to 80 solves of three times as many.
+const PLASTIC_MAX: usize = 1000;
 
 fn under(
     seats: &Seats,
     supports: &[Support],
     forces: Vec<NodeLoad>,
-    gravity: [f64; 3],
+    (gravity, is_plastic): ([f64; 3], bool),
 ) -> Result<Answer, SolveError> {
     let weight = Load { gravity_m_s2: gravity, ..Load::default() };
     let load = Load { at_nodes: forces, ..Load::default() };
@@ -147,13 +157,17 @@ fn under(
         .fold(0.0, f64::max);
     let capacity = (seats.strengths.as_slice(), seats.welds.as_slice());
     let yields = first_yield(&seats.frame, capacity, (&resting, gravity), (&loaded, [0.0; 3])).ok();
+    let plastic = (is_plastic && seats.frame.members().len() <= PLASTIC_MAX)
+        .then(|| plastic_bound(&seats.frame, supports, &seats.strengths, &weight, &load).ok())
+        .flatten();
     let both = Load { gravity_m_s2: gravity, ..load };
     let modes = held.buckling(&both, BucklingAsk::default()).ok();
     let least = |modes: &Vec<Mode>| modes.first().map_or(f64::INFINITY, |mode| mode.factor);
     let buckling = modes.as_ref().map(least);
     let is_near = buckling.is_some_and(|factor| factor < imperfect::TRUSTED);
     let followed = if is_near { imperfect::followed(&seats.frame, supports, &both) } else { None };
-    Ok(Answer { deflection_m, yields, buckling, followed })
+    let plastic = plastic.map(|found| found.bound);
+    Ok(Answer { deflection_m, yields, plastic, buckling, followed })
 }
 
 /// A first yield with what it is worth: by the model factor for thermoplastics, else by the strength alone; a node also by how
