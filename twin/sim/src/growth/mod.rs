@@ -6,12 +6,14 @@
 mod build;
 mod landing;
 mod loads;
+mod shown;
 #[cfg(test)]
 mod tests;
 
 pub use build::{Built, StrandLaw, build};
 pub use landing::Landing;
 pub use loads::LoadResult;
+pub use shown::{Cause, Fails, Shown, ShownStage};
 
 use crate::cell::Job;
 use crate::deposit::{Contact, Deposit};
@@ -56,6 +58,8 @@ pub struct Growth {
     pub loads: Vec<LoadResult>,
     /// Whether the frame was too large for the landing check.
     pub landing_skipped: bool,
+    /// What pictures show of it.
+    pub shown: Shown,
 }
 
 /// What is known about the deposit when its mechanics are asked for.
@@ -85,7 +89,8 @@ pub fn grow(
     let strengths: Vec<Strength> = built.strengths(printed.laws);
     let n_numbers = plan.len() * built.frame.nodes().len() * 12;
     let landing_skipped = n_numbers > KEEP_MAX;
-    let keep: Vec<usize> = if landing_skipped { Vec::new() } else { (0..plan.len()).collect() };
+    let keep: Vec<usize> =
+        if landing_skipped { shown::thirds(plan.len()) } else { (0..plan.len()).collect() };
     let stages: Vec<Stage> = plan.iter().map(|planned| planned.stage.clone()).collect();
     let ask = Ask { staged: true, strengths: &strengths, keep: &keep };
     let records = solve_stages(&built.weightless_strain(), &stages, ask)?;
@@ -99,8 +104,9 @@ pub fn grow(
     } else {
         landing::landings(job, printed, &built, &plan, &records, findings)?
     };
+    let shown = shown::shown(&built, &plan, &records);
     let loads = loads::solve_all(job, &built, &strengths, findings);
-    Ok(Growth { built, stages: results, landings, loads, landing_skipped })
+    Ok(Growth { built, stages: results, landings, loads, landing_skipped, shown })
 }
 
 /// A stage with what it stands for.
