@@ -13,6 +13,9 @@ use sim::scene::{Bounds, Row, Scene};
 
 /// More would be too small to see.
 const MOST_SCENES: usize = 6;
+/// Turns from the usual side that may show a long part larger, deg.
+const TURNS_DEG: [f64; 3] = [0.0, -28.0, 28.0];
+const CLEARLY_LARGER: f64 = 1.1;
 /// Colour of the word that says what a picture is not.
 const STAMP: u32 = 0xB45309;
 
@@ -78,15 +81,10 @@ fn compose(row: &Row, size_px: (u32, u32), engine: &Engine) -> Result<Picture, R
     let area = [gap, head, width - legend_width - 3 * gap, height - head - foot];
     let whole = scenes.iter().filter_map(Scene::part).flat_map(|b| [b.min, b.max]);
     let bounds = Bounds::of(whole);
-    let azimuth_deg = scenes.last().map_or(0.0, |scene| best_side(scene, false));
-    let camera = Camera::Orbit { azimuth_deg, elevation_deg: ELEVATION_DEG };
+    let side_deg = scenes.last().map_or(0.0, |scene| best_side(scene, false));
     let mut views = Vec::new();
     if let (Some(bounds), Ok(count @ 1..)) = (bounds, u32::try_from(scenes.len())) {
-        let [beside, below] = [false, true].map(|below| Places::new(area, count, below, u));
-        let places = match below.px_per_m(camera, bounds) > beside.px_per_m(camera, bounds) {
-            true => below,
-            false => beside,
-        };
+        let (places, camera) = largest(area, count, side_deg, bounds, u);
         for (scene, place) in scenes.iter().zip(&places.each) {
             let view = View {
                 size_px: (place[2], place[3]),
@@ -106,13 +104,33 @@ fn compose(row: &Row, size_px: (u32, u32), engine: &Engine) -> Result<Picture, R
         }
     }
     let at = [(area[0] + area[2] + gap) as f32, head as f32 + 12.0 * u];
-    if let Some(last) = scenes.last() {
-        let end = legend::draw(&mut page, &pen, last, at, area[3] as f32 * 0.5, u);
+    // the one with the most to name
+    if let Some(named) = scenes.iter().max_by_key(|scene| scene.bodies.len()) {
+        let end = legend::draw(&mut page, &pen, named, at, area[3] as f32 * 0.5, u);
         legend::notes(&mut page, &pen, &row.notes, [at[0], end + 20.0 * u], u);
     }
     overlay::drawn_by(&mut page, &pen, engine, u);
     rect(&mut page, [0.0, 0.0], [width as f32, 4.0 * u], INK, 1.0);
     Ok(Picture { rgba: page, drawn_by: engine.drawn_by(), views })
+}
+
+/// Places and camera that show a box largest; the usual side unless another is clearly better.
+fn largest(area: [u32; 4], count: u32, side_deg: f64, bounds: Bounds, u: f32) -> (Places, Camera) {
+    let ways = TURNS_DEG.into_iter().flat_map(|turn| [(turn, false), (turn, true)]);
+    let way = |(turn_deg, below): (f64, bool)| {
+        let camera =
+            Camera::Orbit { azimuth_deg: side_deg + turn_deg, elevation_deg: ELEVATION_DEG };
+        let places = Places::new(area, count, below, u);
+        let usual = if turn_deg == 0.0 { CLEARLY_LARGER } else { 1.0 };
+        (places.px_per_m(camera, bounds) * usual, places, camera)
+    };
+    let mut best = way((0.0, false));
+    for other in ways.map(way) {
+        if other.0 > best.0 {
+            best = other;
+        }
+    }
+    (best.1, best.2)
 }
 
 /// The lines of a title in the upper left corner, and the stamp in the lower right one.

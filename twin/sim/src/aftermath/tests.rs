@@ -46,7 +46,7 @@ fn lowest_m(piece: &Piece, at: usize) -> f64 {
 }
 
 /// `z = -g t²/2` until it lands, within `g t dt/2`, the error of a step that is explicit in place; rounding of `f32`
-/// is 1e-5 m of 0.3 m.
+/// is 1e-5 m of 0.3 m, and gravity leans by a part in a thousand.
 #[test]
 fn a_free_piece_falls_as_galilei_says() {
     let height_m = 0.3;
@@ -65,7 +65,8 @@ fn a_free_piece_falls_as_galilei_says() {
         let wanted_m = -G * time_s * time_s / 2.0;
         let z_m = pose.translation.z;
         assert!((z_m - wanted_m).abs() <= G * time_s * STEP_S / 2.0 + 1e-5, "{z_m} for {wanted_m}");
-        assert!(pose.translation.vector.xy().norm() < 1e-6 && pose.rotation.angle() < 1e-5);
+        assert!(pose.translation.vector.xy().norm() <= 1.1e-3 * wanted_m.abs() + 1e-5);
+        assert!(pose.rotation.angle() < 1e-5);
         seen += 1;
     }
     assert!(seen > 10, "{seen}");
@@ -98,6 +99,16 @@ fn a_piece_lands_on_what_stands() {
     let middle = fallen.pieces[0].poses[at] * Point::new(0.0, 0.0, 0.2);
     println!("over the bar's axis: {:.3} mm", (middle.z - 0.05) * 1e3);
     assert!((middle.z - 0.05 - 2.0 * RADIUS_M).abs() < 5e-4, "{middle}");
+}
+
+/// A leaf that stands on its tip topples: it is shown lying, and to the same side on every machine.
+#[test]
+fn nothing_stands_on_its_tip() {
+    let frame = frame(&[[0.0, 0.0, 0.0015], [0.0, 0.0, 0.015]], &[[0, 1]]);
+    let fallen = drop_it(&frame, &[], &[]);
+    let top = fallen.pieces[0].poses[50] * Point::new(0.0, 0.0, 0.015);
+    println!("top after 1 s: {top}");
+    assert!(top.z < 2.0 * RADIUS_M && top.x > 0.005, "{top}");
 }
 
 /// A form is hit too.

@@ -14,6 +14,8 @@ const DRAWN_SHARE: f64 = 0.05;
 const PIECES_MAX: usize = 24_000;
 /// Pieces of one member: a cubic in eight pieces is off by a thousandth of its height.
 const PIECES_OF_MEMBER: usize = 8;
+/// Members are drawn at least this thick against the part's longest edge, so that colours show.
+const THINNEST_SHARE: f64 = 0.0035;
 /// A planned axis is drawn this thin against its bead.
 const LINE_SHARE: f64 = 0.14;
 /// Below this the colours are told in micrometres, m.
@@ -51,7 +53,9 @@ impl Unit {
 pub fn deformed(preflight: &Preflight) -> Option<Row> {
     let growth = &preflight.growth;
     let shown = &growth.shown.stages;
-    let most_m = shown.iter().map(|stage| largest(stage).1).fold(0.0, f64::max);
+    let nodes_m = shown.iter().map(|stage| largest(stage).1);
+    let most_m =
+        shown.iter().map(|stage| between_m(growth, stage)).chain(nodes_m).fold(0.0, f64::max);
     let size_m = Bounds::of(growth.built.frame.nodes().iter().copied())?.size().max();
     if !(most_m > 0.0 && most_m.is_finite()) {
         return None;
@@ -59,22 +63,29 @@ pub fn deformed(preflight: &Preflight) -> Option<Row> {
     let factor = round_factor(DRAWN_SHARE * size_m / most_m);
     let unit = Unit::of(most_m);
     let limit_m = preflight.job.limits.node_miss_m;
-    let drawing = Drawing { preflight, factor, unit, most_m };
+    let thinnest_m = THINNEST_SHARE * size_m;
+    let drawing = Drawing { preflight, factor, unit, most_m, thinnest_m };
     let mut scenes: Vec<Scene> = shown.iter().map(|stage| drawing.scene(stage)).collect();
     share_bounds(&mut scenes);
     let mut notes = vec![
-        format!("shape: displacement × {factor}"),
+        format!("shape: displacement × {}", grouped(factor)),
         "thin lines: as planned".to_owned(),
         "weight alone, each strand born free of stress on the frame as it then stands (staged)"
             .to_owned(),
+        "between nodes: as the ends of a member turn, without its own sag".to_owned(),
     ];
+    if growth.built.frame.members().iter().any(|member| member.section.fibre_m < thinnest_m) {
+        notes.push("strands are drawn thicker than they are".to_owned());
+    }
     if limit_m > most_m {
-        notes.insert(0, format!("limit of a node's miss {}, beyond the scale", unit.text(limit_m)));
+        let limit = Unit::of(limit_m).text(limit_m);
+        notes.insert(0, format!("limit of a node's miss {limit}, beyond the scale"));
     }
     Some(Row {
         title: format!(
-            "{} – frame under its weight, staged, displacement × {factor}",
-            preflight.job.name
+            "{} – frame under its weight, staged, displacement × {}",
+            preflight.job.name,
+            grouped(factor)
         ),
         scenes,
         notes,
@@ -89,6 +100,35 @@ fn largest(stage: &ShownStage) -> (usize, f64) {
     all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
 }
 
+/// Largest displacement along the members of a stage, as they are drawn.
+fn between_m(growth: &Growth, stage: &ShownStage) -> f64 {
+    let nodes = growth.built.frame.nodes();
+    let members = growth.built.frame.members().iter().take(stage.born);
+    let curve = |ends: [usize; 2]| {
+        let (places, moved) = (ends.map(|node| nodes[node]), ends.map(|node| stage.staged[node]));
+        (1..2 * PIECES_OF_MEMBER)
+            .map(move |k| along(places, moved, k as f64 / (2 * PIECES_OF_MEMBER) as f64).norm())
+    };
+    members
+        .filter(|member| member.density_kg_m3 > 0.0)
+        .flat_map(|member| curve(member.ends))
+        .filter(|length| length.is_finite())
+        .fold(0.0, f64::max)
+}
+
+/// Digits in groups of three.
+fn grouped(factor: u64) -> String {
+    let digits = factor.to_string();
+    let mut text = String::with_capacity(2 * digits.len());
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 /// The largest of 1, 2, 5, 10 … that is not above; 1 at the least.
 pub(super) fn round_factor(most: f64) -> u64 {
     let decades = (0..15).flat_map(|k| [1, 2, 5].map(|digit| digit * 10u64.pow(k)));
@@ -100,6 +140,7 @@ struct Drawing<'a> {
     factor: u64,
     unit: Unit,
     most_m: f64,
+    thinnest_m: f64,
 }
 
 impl Drawing<'_> {
@@ -114,23 +155,21 @@ impl Drawing<'_> {
         let at = growth.built.frame.nodes()[node] + self.drawn(&stage.staged[node]);
         let label = format!("node {node}: {}", unit.text(largest_m));
         let mark = Mark { at: bed_from_part * at, label, severity: MarkSeverity::Note };
-        let one_shot =
-            told.one_shot_m.map_or_else(String::new, |m| format!("\none-shot {}", unit.text(m)));
-        let used = told
-            .utilisation
-            .map_or_else(String::new, |used| format!(", {:.2} % of strength used", used * 100.0));
+        let one_shot = told.one_shot_m.map_or_else(String::new, |m| unit.text(m));
+        let used = told.utilisation.map_or_else(String::new, share_text);
         Scene {
             bodies: forms(preflight, stage.stage),
             strands,
             bed: bed(preflight),
             title: format!(
-                "{}\nstaged, at most {}{one_shot}{used}",
+                "{}\nnodes {}, between them {}\none-shot {one_shot}{used}",
                 caption(preflight, stage.stage),
-                unit.text(largest_m)
+                unit.text(largest_m),
+                unit.text(between_m(growth, stage))
             ),
-            marks: vec![mark],
+            marks: if largest_m > 0.0 { vec![mark] } else { Vec::new() },
             colour: Some(ColourScale {
-                title: "displacement".to_owned(),
+                title: "displacement, staged".to_owned(),
                 unit: unit.name.to_owned(),
                 low: 0.0,
                 high: self.most_m * unit.per_m,
@@ -166,10 +205,8 @@ impl Drawing<'_> {
                 let middle = along(ends, moved, (k as f64 + 0.5) / pieces as f64);
                 StrandShape {
                     points: vec![place(k), place(k + 1)],
-                    radius_m: member.section.fibre_m,
-                    value: Some(
-                        (middle.norm() * self.unit.per_m).min(self.most_m * self.unit.per_m),
-                    ),
+                    radius_m: member.section.fibre_m.max(self.thinnest_m),
+                    value: Some(middle.norm() * self.unit.per_m),
                     highlighted: false,
                 }
             }));
@@ -205,6 +242,15 @@ fn planned(preflight: &Preflight, printed: usize) -> Vec<StrandShape> {
         highlighted: false,
     };
     strands.map(line).collect()
+}
+
+/// ", 3.2 % of strength used"
+fn share_text(used: f64) -> String {
+    match used * 100.0 {
+        percent if percent < 0.01 => ", under 0.01 % of strength used".to_owned(),
+        percent if percent < 10.0 => format!(", {percent:.2} % of strength used"),
+        percent => format!(", {percent:.0} % of strength used"),
+    }
 }
 
 /// "after 3 of 12 strands", and what was released.
