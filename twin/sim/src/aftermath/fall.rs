@@ -91,7 +91,11 @@ fn is_at_rest(poses: &[Pose], piece: &Loose) -> bool {
 fn still_world(gravity_m_s2: Vector, ground: &Ground, rest: &[Bit]) -> PhysicsWorld {
     let mut world = PhysicsWorld::new();
     let strength_m_s2 = gravity_m_s2.norm();
-    let aside = if gravity_m_s2.x.abs() < 0.9 * strength_m_s2 { Vector::x() } else { Vector::y() };
+    // along no axis, so that a plane frame leans out of its plane
+    let aside = match gravity_m_s2.z.abs() > 0.5 * strength_m_s2 {
+        true => Vector::new(0.6, 0.8, 0.0),
+        false => Vector::z(),
+    };
     world.gravity = parry::vector(&(gravity_m_s2 + aside * (strength_m_s2 * LEANS_RAD)));
     let parameters = &mut world.integration_parameters;
     parameters.dt = STEP_S as f32;
