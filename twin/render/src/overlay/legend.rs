@@ -42,7 +42,7 @@ pub(crate) fn notes(image: &mut RgbaImage, pen: &Pen, notes: &[String], at: At, 
     let ink = Ink { size: 16.0 * u, rgb: INK, halo: 2.0 * u };
     let mut y = at[1];
     for note in notes {
-        for text in wrapped(pen, note.split_whitespace(), ink.size, (WIDTH - 10.0) * u) {
+        for text in wrapped(pen, note.split_ascii_whitespace(), ink.size, (WIDTH - 10.0) * u) {
             pen.write(image, [at[0], y], Anchor::Left, ink, &text);
             y += 19.0 * u;
         }

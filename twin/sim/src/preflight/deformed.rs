@@ -68,7 +68,7 @@ pub fn deformed(preflight: &Preflight) -> Option<Row> {
     let mut scenes: Vec<Scene> = shown.iter().map(|stage| drawing.scene(stage)).collect();
     share_bounds(&mut scenes);
     let mut notes = vec![
-        format!("shape: displacement × {}", grouped(factor)),
+        format!("shape: displacement\u{a0}×\u{a0}{}", grouped(factor)),
         "thin lines: as planned".to_owned(),
         "weight alone, each strand born free of stress on the frame as it then stands (staged)"
             .to_owned(),
@@ -116,13 +116,13 @@ fn between_m(growth: &Growth, stage: &ShownStage) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Digits in groups of three.
+/// Digits in groups of three, with spaces that no line breaks at.
 fn grouped(factor: u64) -> String {
     let digits = factor.to_string();
     let mut text = String::with_capacity(2 * digits.len());
     for (k, digit) in digits.chars().enumerate() {
         if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(' ');
+            text.push('\u{a0}');
         }
         text.push(digit);
     }

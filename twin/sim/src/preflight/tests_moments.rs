@@ -92,7 +92,7 @@ fn three_stages_are_drawn_with_one_factor_and_one_scale() {
         .title
         .rsplit('×')
         .next()
-        .and_then(|text| text.replace(' ', "").parse().ok())
+        .and_then(|text| text.replace(char::is_whitespace, "").parse().ok())
         .expect("a factor");
     assert!((0.02..=0.0501).contains(&(factor * most_m / 0.06)), "{factor} {most_m}");
     assert!(fallen(&preflight).is_none());
