@@ -133,9 +133,9 @@ fn largest(area: [u32; 4], count: u32, side_deg: f64, bounds: Bounds, u: f32) ->
     (best.1, best.2)
 }
 
-/// The lines of a title in the upper left corner, and the stamp in the lower right one.
+/// The lines of a title in the upper left corner, and the stamp in the upper right one.
 fn caption(image: &mut RgbaImage, pen: &Pen, title: &str, stamp: Option<&str>, u: f32) {
-    let (w, h) = (image.width() as f32, image.height() as f32);
+    let w = image.width() as f32;
     for (k, text) in title.lines().take(3).enumerate() {
         let (size, rgb) = if k == 0 { (20.0 * u, INK) } else { (17.0 * u, FAINT) };
         let text = pen.cut(text, size, w - 28.0 * u);
@@ -144,6 +144,6 @@ fn caption(image: &mut RgbaImage, pen: &Pen, title: &str, stamp: Option<&str>, u
     }
     if let Some(stamp) = stamp {
         let ink = Ink { size: 24.0 * u, rgb: STAMP, halo: 3.0 * u };
-        pen.write(image, [w - 16.0 * u, h - 24.0 * u], Anchor::Right, ink, stamp);
+        pen.write(image, [w - 16.0 * u, 24.0 * u], Anchor::Right, ink, stamp);
     }
 }
