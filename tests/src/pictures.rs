@@ -1,6 +1,6 @@
 //! Pictures against the golden ones in `renders/`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::tools::{root, scratch, twin};
 
@@ -20,6 +20,30 @@ fn the_helix_looks_as_it_did() {
     let ran = twin(["check", &job, "--cpu", "--out", &out]);
     assert!(ran.code <= 1, "{}", ran.err);
     compare(&folder.join("picture.png"), "tapered-helix/sheet.png");
+}
+
+/// Three stages of the girder, displacements enlarged.
+#[test]
+fn the_frame_of_the_lattice_looks_as_it_did() {
+    let folder = drawn("frame", "scenarios/lattice/job.slam");
+    compare(&folder.join("frame.png"), "lattice/frame.png");
+    assert!(!folder.join("collapse.png").exists(), "nothing falls");
+}
+
+/// A leaf that was printed a tenth of a millimetre too high.
+#[test]
+fn what_falls_looks_as_it_did() {
+    let folder = drawn("collapse", "scenarios/near-miss-s402/past.slam");
+    compare(&folder.join("collapse.png"), "near-miss-s402/collapse.png");
+}
+
+/// The folder of a check with its pictures.
+fn drawn(name: &str, job: &str) -> PathBuf {
+    let folder = scratch(name);
+    let (job, out) = (root().join(job).display().to_string(), folder.display().to_string());
+    let ran = twin(["check", &job, "--cpu", "--no-plots", "--out", &out]);
+    assert!(ran.code <= 1, "{}", ran.err);
+    folder
 }
 
 fn compare(drawn: &Path, golden_name: &str) {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 22] = [
+const MAY_USE: [(&str, &[&str]); 23] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
@@ -42,9 +42,11 @@ const MAY_USE: [(&str, &[&str]); 22] = [
     ("clearance", &["deposit", "kinematics", "cell", "shape", "parry", "pose"]),
     ("collision", &["clearance", "deposit", "motion", "finding", "cell", "interval", "pose"]),
     ("growth", &["structure", "deposit", "motion", "finding", "cell", "interval", "pose"]),
+    ("aftermath", &["structure", "parry", "pose"]),
     (
         "preflight",
         &[
+            "aftermath",
             "program",
             "dynamics",
             "scene",

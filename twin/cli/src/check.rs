@@ -1,22 +1,19 @@
 //! `twin check`: read a job, run the twin, say what was found.
 
-use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Provenance, Report, StepTime, Timing};
 use sim::finding::Severity;
-use sim::preflight::{Preflight, Step, preflight, scene};
+use sim::preflight::{Preflight, Step, preflight};
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
+use crate::pictures::{self, Drawn};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
 use crate::{DEGRADED, FEASIBLE, FOUND, files};
-
-/// Width and height of the picture, px.
-const PICTURE_PX: (u32, u32) = (1600, 900);
 
 /// Check a job before it reaches the robot
 ///
@@ -27,7 +24,7 @@ pub(crate) struct Check {
     /// Job to check
     #[arg(value_name = "JOB.slam")]
     job: PathBuf,
-    /// Folder for report.json, strands.html and picture.png
+    /// Folder for report.json, strands.html, picture.png, frame.png and collapse.png
     #[arg(long, value_name = "DIR", default_value = "twin.out")]
     out: PathBuf,
     /// Draw no picture
@@ -103,32 +100,33 @@ impl Check {
             files::write_whole(&self.page(), report::strands_page(&report).as_bytes())?;
         }
 
-        let picture = (!self.no_render).then(|| {
+        let drawn = (!self.no_render).then(|| {
             clock.step("drawing");
             bar.set_position(Step::ALL.len() as u64);
             bar.set_message("drawing");
-            on(pool.as_ref(), || self.draw(&checked))
+            let backend = if self.cpu { render::Backend::Cpu } else { render::Backend::Auto };
+            on(pool.as_ref(), || pictures::draw(&checked, &self.out, backend))
         });
         clock.stop();
         bar.finish_and_clear();
-        if let Some(Ok((_, drawn_by))) = &picture {
-            report.provenance.drawn_by = Some(drawn_by.clone());
+        if let Some(Ok(drawn)) = &drawn {
+            report.provenance.drawn_by = Some(drawn.drawn_by.clone());
             report.timing = clock.timing();
             files::write_whole(&report_path, report::to_json(&report).as_bytes())?;
         }
-        self.answer(&report, &picture, screen)?;
-        let degraded = matches!(picture, Some(Err(_))) || missing_meshes > 0;
+        self.answer(&report, &drawn, screen)?;
+        let degraded = matches!(drawn, Some(Err(_))) || missing_meshes > 0;
         Ok(self.code(&checked, degraded))
     }
 
     fn answer(
         &self,
         report: &Report,
-        picture: &Option<Result<(PathBuf, String), String>>,
+        drawn: &Option<Result<Drawn, String>>,
         screen: &mut Screen<'_>,
     ) -> Result<(), Failure> {
-        if let Some(Err(why)) = picture {
-            writeln!(screen.err, "warning: no picture was drawn: {why}")?;
+        if let Some(Err(why)) = drawn {
+            writeln!(screen.err, "warning: a picture was not drawn: {why}")?;
         }
         match self.format {
             Format::Json => screen.out.write_all(report::to_json(report).as_bytes())?,
@@ -140,8 +138,11 @@ impl Check {
                 if !self.no_plots {
                     writeln!(screen.out, "plots    {}", self.page().display())?;
                 }
-                if let Some(Ok((path, drawn_by))) = picture {
-                    writeln!(screen.out, "picture  {} (drawn by {drawn_by})", path.display())?;
+                if let Some(Ok(Drawn { pictures, drawn_by })) = drawn {
+                    for (what, path) in pictures {
+                        let path = path.display();
+                        writeln!(screen.out, "{what:8} {path} (drawn by {drawn_by})")?;
+                    }
                 }
             }
         }
@@ -172,14 +173,15 @@ impl Check {
         self.out.join("strands.html")
     }
 
-    /// The folder of the answer, without picture and page of an earlier one.
+    /// The folder of the answer, without pictures and page of an earlier one.
     fn make_folder(&self) -> Result<(), Refusal> {
         let name = || self.out.display().to_string();
         std::fs::create_dir_all(&self.out).map_err(|error| {
             Refusal::whole(name(), format!("the folder cannot be made: {error}"))
                 .hint("name another with --out")
         })?;
-        for (old, what) in [(self.out.join("picture.png"), "picture"), (self.page(), "page")] {
+        let pictures = pictures::NAMES.map(|(what, file)| (self.out.join(file), what));
+        for (old, what) in pictures.into_iter().chain([(self.page(), "page")]) {
             if let Err(error) = std::fs::remove_file(&old)
                 && old.is_file()
             {
@@ -188,23 +190,6 @@ impl Check {
             }
         }
         Ok(())
-    }
-
-    /// Draws the picture: its path, and who drew it.
-    fn draw(&self, checked: &Preflight) -> Result<(PathBuf, String), String> {
-        let backend = if self.cpu { render::Backend::Cpu } else { render::Backend::Auto };
-        let picture = render::sheet(&scene(checked), PICTURE_PX, backend)
-            .map_err(|error| error.to_string())?;
-        let mut png = Cursor::new(Vec::new());
-        picture
-            .rgba
-            .write_to(&mut png, image::ImageFormat::Png)
-            .map_err(|error| error.to_string())?;
-        let path: &Path = &self.out.join("picture.png");
-        files::write_whole(path, &png.into_inner()).map_err(|refusal| {
-            refusal.diagnostics.into_iter().map(|problem| problem.message).collect::<String>()
-        })?;
-        Ok((path.to_owned(), picture.drawn_by.to_string()))
     }
 }
 

@@ -14,6 +14,7 @@ mod library;
 mod load;
 mod map;
 mod names;
+mod pictures;
 mod plan;
 mod refusal;
 mod robot;

@@ -12,6 +12,7 @@ mod layer;
 mod map;
 mod overlay;
 mod paint;
+mod row;
 mod shade;
 mod sheet;
 mod text;
@@ -22,6 +23,7 @@ mod tests;
 
 use image::RgbaImage;
 pub use map::spin_map;
+pub use row::row;
 pub use sheet::sheet;
 use sim::scene::Scene;
 pub use view::{Camera, Fit, Projection, View};

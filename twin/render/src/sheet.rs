@@ -14,7 +14,7 @@ use sim::scene::{BodyKind, Scene};
 
 /// Sides to look from, the usual one first; another is taken only if it shows clearly more of the part.
 const SIDES_DEG: [f64; 4] = [-50.0, 40.0, -140.0, 130.0];
-const ELEVATION_DEG: f64 = 28.0;
+pub(crate) const ELEVATION_DEG: f64 = 28.0;
 const CLEARLY_MORE: f64 = 1.3;
 
 /// The whole cell, and beside it the part as seen through the arm, with one legend for both.
@@ -86,7 +86,7 @@ fn frame_part(image: &mut RgbaImage, scene: &Scene, view: &Projection, u: f32) {
 }
 
 /// The side from which most of the strands is seen, by a few rays.
-fn best_side(scene: &Scene, ghost_arm: bool) -> f64 {
+pub(crate) fn best_side(scene: &Scene, ghost_arm: bool) -> f64 {
     let clear = |id: HitId| match id {
         HitId::Body(i) => scene.bodies.get(i).is_some_and(|b| match b.kind {
             BodyKind::Obstacle => true,

@@ -1,5 +1,7 @@
 #![allow(clippy::print_stderr)] // a test that skips says why
 
+mod row;
+
 use super::*;
 use crate::layer::{Things, thing};
 use crate::overlay::{legend::ticks, round_below};

@@ -4,6 +4,7 @@
 //! does IO, looks at a clock, prints, or hides randomness. Which module may use which is a table
 //! in the tidy test of the `tests` package.
 
+pub mod aftermath;
 pub mod calibration;
 pub mod cell;
 pub mod clearance;

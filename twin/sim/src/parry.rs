@@ -55,3 +55,15 @@ pub fn pose(pose: &Pose) -> ParryPose {
 pub fn from_point(point: ParryVector) -> Point {
     Point::new(from_length(point.x), from_length(point.y), from_length(point.z))
 }
+
+/// A pose from parry3d.
+pub fn from_pose(pose: &ParryPose) -> Pose {
+    let turn = nalgebra::Quaternion::new(
+        f64::from(pose.rotation.w),
+        f64::from(pose.rotation.x),
+        f64::from(pose.rotation.y),
+        f64::from(pose.rotation.z),
+    );
+    let at = from_point(pose.translation);
+    Pose::from_parts(at.coords.into(), nalgebra::UnitQuaternion::new_normalize(turn))
+}

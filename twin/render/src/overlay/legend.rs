@@ -12,8 +12,15 @@ pub(crate) const WIDTH: f32 = 178.0;
 const BAR: f32 = 20.0;
 const LINE: f32 = 25.0;
 
-/// Writes the legend from `at` downwards, no longer than `room`.
-pub(crate) fn draw(image: &mut RgbaImage, pen: &Pen, scene: &Scene, at: At, room: f32, u: f32) {
+/// Writes the legend from `at` downwards, no longer than `room`; returns where it ends.
+pub(crate) fn draw(
+    image: &mut RgbaImage,
+    pen: &Pen,
+    scene: &Scene,
+    at: At,
+    room: f32,
+    u: f32,
+) -> f32 {
     let key_height = LINE * u * kinds(scene).len() as f32;
     let mut y = at[1];
     if let Some(scale) = &scene.colour {
@@ -26,6 +33,20 @@ pub(crate) fn draw(image: &mut RgbaImage, pen: &Pen, scene: &Scene, at: At, room
         let ink = Ink { size: 18.0 * u, rgb: INK, halo: 2.0 * u };
         pen.write(image, [at[0] + 24.0 * u, y + 7.5 * u], Anchor::Left, ink, name);
         y += LINE * u;
+    }
+    y
+}
+
+/// Sentences from `at` downwards, broken to the width of the legend.
+pub(crate) fn notes(image: &mut RgbaImage, pen: &Pen, notes: &[String], at: At, u: f32) {
+    let ink = Ink { size: 16.0 * u, rgb: INK, halo: 2.0 * u };
+    let mut y = at[1];
+    for note in notes {
+        for text in wrapped(pen, note.split_ascii_whitespace(), ink.size, (WIDTH - 10.0) * u) {
+            pen.write(image, [at[0], y], Anchor::Left, ink, &text);
+            y += 19.0 * u;
+        }
+        y += 9.0 * u;
     }
 }
 
@@ -107,8 +128,21 @@ fn bar(
 /// Title and unit, broken at a space where they do not fit one line.
 fn heading(pen: &Pen, scale: &ColourScale, size: f32, room: f32) -> Vec<String> {
     let unit = if scale.unit.is_empty() { String::new() } else { format!("[{}]", scale.unit) };
+    let words = scale.title.split_whitespace().chain([unit.as_str()]).filter(|w| !w.is_empty());
+    let mut lines = wrapped(pen, words, size, room);
+    lines.truncate(3);
+    lines
+}
+
+/// Words in lines no longer than `room`; a word that is longer is cut.
+fn wrapped<'a>(
+    pen: &Pen,
+    words: impl Iterator<Item = &'a str>,
+    size: f32,
+    room: f32,
+) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in scale.title.split_whitespace().chain([unit.as_str()]).filter(|w| !w.is_empty()) {
+    for word in words {
         match lines.last_mut() {
             Some(last) if pen.width(&format!("{last} {word}"), size) <= room => {
                 last.push(' ');
@@ -117,7 +151,6 @@ fn heading(pen: &Pen, scale: &ColourScale, size: f32, room: f32) -> Vec<String> 
             _ => lines.push(word.to_owned()),
         }
     }
-    lines.truncate(3);
     lines.iter().map(|l| pen.cut(l, size, room)).collect()
 }
 

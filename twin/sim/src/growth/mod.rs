@@ -11,6 +11,7 @@ mod nozzle;
 mod part;
 mod remedy;
 mod riding;
+mod shown;
 mod stage;
 mod strand_law;
 #[cfg(test)]
@@ -24,6 +25,7 @@ pub use landing::Landing;
 pub use loads::{LoadResult, Yield};
 pub use remedy::{Change, Remedy};
 pub use riding::Shaken;
+pub use shown::{Cause, Fails, Shown, ShownStage};
 pub use stage::{StageResult, State, Used};
 pub use strand_law::StrandLaw;
 pub use welds::Bond;
@@ -46,6 +48,8 @@ pub struct Growth {
     pub landings: Vec<Landing>,
     /// One entry per load case.
     pub loads: Vec<LoadResult>,
+    /// What pictures show of it.
+    pub shown: Shown,
 }
 
 /// What is known about the deposit when its mechanics are asked for.
@@ -93,7 +97,8 @@ pub fn grow(
     };
     let unloaded = |stage: &Stage| Stage { trials: Vec::new(), ..stage.clone() };
     let by_weight: Vec<Stage> = stages.iter().map(unloaded).collect();
-    let weight = Ask { staged: true, ..Ask::default() };
+    let keep = shown::kept(plan.len(), built.frame.nodes().len());
+    let weight = Ask { staged: true, keep: &keep, ..Ask::default() };
     let (by_weight, in_all) = rayon::join(
         || solve_stages(&built.weightless_strain(), &by_weight, weight),
         || solve_stages(&built.frame, &stages, whole),
@@ -112,7 +117,8 @@ pub fn grow(
     }
     let landings = landing::landings(job, printed, &built, &plan, &comings, &records, findings);
     let loads = loads::solve_all(job, printed, &built, &strengths, findings);
-    Ok(Growth { built, stages: results, landings, loads })
+    let shown = shown::shown(&built, &plan, &records);
+    Ok(Growth { built, stages: results, landings, loads, shown })
 }
 
 /// A stage with what it stands for.

@@ -5,6 +5,8 @@
 mod bonding;
 mod clear;
 mod course;
+mod deformed;
+mod fallen;
 mod judging;
 mod lighting;
 mod making;
@@ -13,10 +15,14 @@ mod reheating;
 mod rules;
 mod totals;
 mod tracking;
+#[cfg(test)]
+mod tests_moments;
 mod view;
 
 pub use bonding::Bond;
 pub use clear::Cleared;
+pub use deformed::deformed;
+pub use fallen::fallen;
 pub use making::StrandResult;
 pub use program::Program;
 pub use reheating::Reheated;

@@ -30,6 +30,19 @@ pub struct Scene {
     pub part_bounds: Option<Bounds>,
 }
 
+/// Several moments of one thing, drawn from one side at one scale.
+#[derive(Debug, Clone, Default)]
+pub struct Row {
+    /// Heading of the page.
+    pub title: String,
+    /// The moments; the lines of each title are its caption, and colours mean the same in all.
+    pub scenes: Vec<Scene>,
+    /// Sentences under the legend.
+    pub notes: Vec<String>,
+    /// A word on every picture that says what it is not, such as "illustration".
+    pub stamp: Option<String>,
+}
+
 /// One rigid thing of the cell.
 #[derive(Debug, Clone)]
 pub struct Body {
