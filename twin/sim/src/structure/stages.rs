@@ -12,6 +12,7 @@ use super::beam::{Beam, beams};
 use super::frame::{Frame, NodeLoad, Support};
 use super::ground::{Ground, Tie, ground};
 use super::growing::Growing;
+use super::one_sided::{Grip, Hold, Holding};
 use super::solve::{SolveError, check_inputs, fixed_freedoms};
 use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
 use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
@@ -57,6 +58,8 @@ pub struct StageRecord {
     pub one_shot: Option<StageState>,
     /// Each member born free of stress on the frame as it stood; nodes appear where planned.
     pub staged: Option<StageState>,
+    /// What let go and what rests; `None` where nothing was said of adhesion.
+    pub holding: Option<Holding>,
 }
 
 /// How the frame stands at a stage.
@@ -94,7 +97,21 @@ pub fn solve_stages(
     stages: &[Stage],
     ask: Ask,
 ) -> Result<Vec<StageRecord>, SolveError> {
+    solve_held_stages(frame, stages, &[], ask)
+}
+
+/// [`solve_stages`] on supports that may let go: those with a [`Hold`]; the others cannot lift.
+///
+/// # Errors
+/// As [`solve_stages`]; a hold that is unusable.
+pub fn solve_held_stages(
+    frame: &Frame,
+    stages: &[Stage],
+    holds: &[Hold],
+    ask: Ask,
+) -> Result<Vec<StageRecord>, SolveError> {
     check(frame, stages, &ask)?;
+    let grip = Grip::new(frame, holds)?;
     let beams = beams(frame);
     let spans = if ask.strengths.is_empty() { Vec::new() } else { spans(frame, &beams) };
     let born = stages.last().map_or(0, |stage| stage.born);
@@ -103,11 +120,12 @@ pub fn solve_stages(
         beams: &beams,
         spans: &spans,
         ask,
-        growing: Growing::new(frame, &beams, &moving(frame, stages), born),
+        growing: Growing::new(frame, &beams, &moving(frame, stages, holds), born),
         standing: Standing::new(frame),
         fresh: 0.0,
     };
-    Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
+    let stages = stages.iter().enumerate();
+    Ok(stages.map(|(index, stage)| grip.take(&mut sequence, stage, index)).collect())
 }
 
 fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
@@ -133,8 +151,8 @@ fn check(frame: &Frame, stages: &[Stage], ask: &Ask) -> Result<(), SolveError> {
     Ok(())
 }
 
-/// Nodes that have a member at the end, without those clamped throughout.
-fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
+/// Nodes that have a member at the end, without those clamped throughout that cannot lift.
+fn moving(frame: &Frame, stages: &[Stage], holds: &[Hold]) -> Vec<bool> {
     let count = frame.nodes().len();
     let born = &frame.members()[..stages.last().map_or(0, |stage| stage.born)];
     let mut clamped = vec![true; count];
@@ -143,6 +161,7 @@ fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
             *clamped &= fixed == [true; 6];
         }
     }
+    holds.iter().filter(|hold| hold.pull_n.is_finite()).for_each(|hold| clamped[hold.node] = false);
     let mut moving = vec![false; count];
     for node in born.iter().flat_map(|member| member.ends) {
         moving[node] = !clamped[node];
@@ -150,19 +169,21 @@ fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
     moving
 }
 
-struct Sequence<'a> {
-    frame: &'a Frame,
+pub(super) struct Sequence<'a> {
+    pub(super) frame: &'a Frame,
     beams: &'a [Beam],
     spans: &'a [Span<'a>],
     ask: Ask<'a>,
-    growing: Growing<'a>,
-    standing: Standing,
+    pub(super) growing: Growing<'a>,
+    pub(super) standing: Standing,
     /// Residual past [`LIMIT`] that a new factor left at the last stage that needed one.
     fresh: f64,
 }
 
 impl Sequence<'_> {
-    fn take(&mut self, stage: &Stage, index: usize) -> StageRecord {
+    /// A stage on the supports it names. Taken again with fewer supports or other forces of surfaces
+    /// it goes on from where it stood.
+    pub(super) fn take(&mut self, stage: &Stage, index: usize) -> StageRecord {
         let node_count = self.frame.nodes().len();
         let born = &self.frame.members()[..stage.born];
         let Ground { tie, mut floats } = ground(node_count, born, &stage.supports);
@@ -170,7 +191,8 @@ impl Sequence<'_> {
         floats.extend(loaded.filter(|&node| tie[node] == Tie::Unborn));
         floats.sort_unstable();
         floats.dedup();
-        let mut record = StageRecord { floats, mechanism: None, one_shot: None, staged: None };
+        let mut record =
+            StageRecord { floats, mechanism: None, one_shot: None, staged: None, holding: None };
 
         let mut free = fixed_freedoms(node_count, &stage.supports).into_iter().zip(&tie);
         let free: Vec<[bool; 6]> =

@@ -1,0 +1,254 @@
+//! Supports that hold by adhesion: they let go where they are pulled too hard, and then only rest.
+//!
+//! ```text
+//! held      u = 0 in all it holds            while  -R · n < a
+//! let go    λ ≥ 0,  g ≥ 0,  λ g = 0          g = n · (u - u₀),  force on the node  λ n
+//! ```
+//! R is the staged reaction, a the greatest pull, n out of the surface, u₀ where the node was when it
+//! let go. Letting go hands R to the frame within the same stage: the staged answer grows by steps, so
+//! that is one step more. Of those that are pulled too hard the one most so goes first (those as much so with it), the frame
+//! finds its rest, and so on: as if the load of the stage had grown evenly. What has let go never
+//! holds again; one stage ends after as many rounds as it has supports, and after [`ROUNDS`] by the
+//! most pulled all that are pulled too hard go together.
+//!
+//! The surface is rigid and without friction; resting is solved exactly, by flexibilities along the normals (`W = nᵀ K⁻¹ n`,
+//! one solve for each node near the surface), not by springs, so nothing sinks in. Adhesion is a mean
+//! stress over the area of contact: a crack that runs along the edge (peeling) is not seen, nor
+//! shear along the surface, nor the moment at the node.
+
+use std::borrow::Cow;
+
+use super::frame::Frame;
+use super::seat::{Seat, all_reactions};
+use super::solve::SolveError;
+use super::stages::{Sequence, Stage, StageRecord};
+use super::standing::{ONE_SHOT, STAGED};
+use crate::pose::Vector;
+
+/// Rounds in which only the most pulled support lets go.
+const ROUNDS: usize = 48;
+/// Rounds in which all that are pulled too hard let go together.
+const ROUNDS_OF_ALL: usize = 16;
+/// Supports pulled as much as the most pulled one, but for rounding, let go with it.
+const AS_MUCH: f64 = 1e-9;
+/// A pull below this part of the largest reaction is rounding.
+const NO_PULL: f64 = 1e-12;
+/// Rounds of looking for nodes that come back to the surface; then all that let go are looked at.
+const LOOKS: usize = 8;
+/// Depth below the surface, as part of the largest displacement, that is rounding: solves end at a residual of
+/// 1e-10, and nodes that rest have been seen 7e-12 deep.
+const DEPTH: f64 = 1e-9;
+
+/// Adhesion of a node to what it rests on, in some stages of a print.
+///
+/// Several for one node in one stage add up. Without effect where no support holds the node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// The node.
+    pub node: usize,
+    /// Unit vector out of the surface to the bead, axes of the part.
+    pub normal: Vector,
+    /// Greatest pull along the normal, N; infinite: cannot lift.
+    pub pull_n: f64,
+    /// First stage (index) it counts in.
+    pub from: usize,
+    /// First stage it no longer counts in.
+    pub until: usize,
+}
+
+/// A support, how hard it is pulled, and how hard it may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pull {
+    /// Its node.
+    pub node: usize,
+    /// Pull along the normal, N; negative where it is pressed.
+    pub pull_n: f64,
+    /// Greatest pull it holds, N.
+    pub held_n: f64,
+}
+
+impl Pull {
+    /// Pull over what is held; nothing where it is pressed.
+    pub fn share(&self) -> f64 {
+        if self.pull_n > 0.0 { self.pull_n / self.held_n } else { 0.0 }
+    }
+}
+
+/// What became of supports with adhesion at a stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Holding {
+    /// The support with the largest share before any lets go at this stage: adhesion larger by this share
+    /// would hold here.
+    pub worst: Option<Pull>,
+    /// Nodes that let go at this stage, in the order in which they do.
+    pub let_go: Vec<usize>,
+    /// Nodes that have let go, now or before, and rest on the surface (staged), ascending.
+    pub resting: Vec<usize>,
+    /// Rounds of letting go.
+    pub rounds: usize,
+    /// Whether the rounds ended with nothing pulled too hard and no node in the surface.
+    pub is_settled: bool,
+}
+
+/// The holds of a sequence.
+pub(super) struct Grip<'a> {
+    holds: &'a [Hold],
+}
+
+impl<'a> Grip<'a> {
+    /// # Errors
+    /// A node that is not there, a normal that is none, a pull that is negative.
+    pub(super) fn new(frame: &Frame, holds: &'a [Hold]) -> Result<Self, SolveError> {
+        let count = frame.nodes().len();
+        let sound = |hold: &Hold| {
+            let unit = (hold.normal.norm() - 1.0).abs() < 1e-6;
+            hold.node < count && unit && hold.pull_n >= 0.0
+        };
+        match holds.iter().find(|hold| !sound(hold)) {
+            Some(hold) => Err(SolveError::BadNode { node: hold.node }),
+            None => Ok(Self { holds }),
+        }
+    }
+
+    /// One stage, with all that lets go in it.
+    pub(super) fn take(&self, sequence: &mut Sequence, stage: &Stage, index: usize) -> StageRecord {
+        if self.holds.is_empty() {
+            return sequence.take(stage, index);
+        }
+        let held = self.held(sequence.frame.nodes().len(), index);
+        // a surface that is gone no longer presses
+        let mut supported = vec![false; held.len()];
+        stage.supports.iter().for_each(|support| supported[support.node] = true);
+        sequence.standing.seats.retain(|seat| supported[seat.node]);
+        let mut holding = Holding {
+            worst: None,
+            let_go: Vec::new(),
+            resting: Vec::new(),
+            rounds: 0,
+            is_settled: true,
+        };
+        let mut record = loop {
+            let (record, came_to_rest) = rest(sequence, stage, index);
+            holding.is_settled = came_to_rest;
+            if record.mechanism.is_some() {
+                break record;
+            }
+            let pulls = pulls(sequence, stage, &held);
+            let worst =
+                pulls.iter().copied().reduce(|a, b| if b.share() > a.share() { b } else { a });
+            if holding.rounds == 0 {
+                holding.worst = worst;
+            }
+            let most = worst.map_or(0.0, |pull| pull.share());
+            if !(most >= 1.0) {
+                break record;
+            }
+            if holding.rounds == ROUNDS + ROUNDS_OF_ALL {
+                holding.is_settled = false;
+                break record;
+            }
+            let least = if holding.rounds < ROUNDS { most * (1.0 - AS_MUCH) } else { 1.0 };
+            for pull in pulls.iter().filter(|pull| pull.share() >= least.max(1.0)) {
+                holding.let_go.push(pull.node);
+                sequence.standing.let_go(pull.node, held[pull.node].normal);
+            }
+            holding.rounds += 1;
+        };
+        let seats = &sequence.standing.seats;
+        let rests = seats.iter().filter(|seat| seat.force_n[STAGED] > 0.0);
+        holding.resting = rests.map(|seat| seat.node).collect();
+        holding.resting.sort_unstable();
+        let sides = [(&mut record.one_shot, ONE_SHOT), (&mut record.staged, STAGED)];
+        for (state, side) in sides.into_iter().filter_map(|(s, side)| Some((s.as_mut()?, side))) {
+            state.reactions = all_reactions(stage, seats, &state.reactions, side);
+        }
+        record.holding = Some(holding);
+        record
+    }
+
+    /// By node: what holds it at a stage; a pull that is infinite where it cannot lift.
+    fn held(&self, node_count: usize, index: usize) -> Vec<Held> {
+        let mut held = vec![Held { normal: Vector::zeros(), pull_n: 0.0 }; node_count];
+        for hold in self.holds.iter().filter(|hold| (hold.from..hold.until).contains(&index)) {
+            held[hold.node].normal += hold.normal;
+            held[hold.node].pull_n += hold.pull_n;
+        }
+        for held in &mut held {
+            // between opposite surfaces, or on none that was told: it cannot lift
+            match held.normal.try_normalize(1e-3) {
+                Some(normal) => held.normal = normal,
+                None => held.pull_n = f64::INFINITY,
+            }
+        }
+        held
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    normal: Vector,
+    pull_n: f64,
+}
+
+/// The stage without the supports that have let go.
+fn without<'a>(stage: &'a Stage, seats: &[Seat]) -> Cow<'a, Stage> {
+    if seats.is_empty() {
+        return Cow::Borrowed(stage);
+    }
+    let mut now = stage.clone();
+    now.supports.retain(|support| seats.iter().all(|seat| seat.node != support.node));
+    Cow::Owned(now)
+}
+
+/// Staged pulls of the supports that still hold and may lift, by node.
+fn pulls(sequence: &Sequence, stage: &Stage, held: &[Held]) -> Vec<Pull> {
+    let still = without(stage, &sequence.standing.seats);
+    let reaction = |node: usize| sequence.standing.held_force(node, STAGED);
+    let largest_n = still.supports.iter().map(|it| reaction(it.node).norm()).fold(0.0, f64::max);
+    let mut nodes: Vec<usize> = still.supports.iter().map(|support| support.node).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let lifts = nodes.into_iter().filter(|&node| held[node].pull_n.is_finite());
+    let pull = |node: usize| {
+        let pull_n = -reaction(node).dot(&held[node].normal);
+        let is_none = pull_n.abs() <= NO_PULL * largest_n;
+        Pull { node, pull_n: if is_none { 0.0 } else { pull_n }, held_n: held[node].pull_n }
+    };
+    lifts.map(pull).collect()
+}
+
+/// Lets the frame come to rest on what still holds and on the surface below what has let go; and
+/// whether it did.
+///
+/// Nodes that press or sink in are looked at; few do, and each costs a solve.
+fn rest(sequence: &mut Sequence, stage: &Stage, index: usize) -> (StageRecord, bool) {
+    let now = without(stage, &sequence.standing.seats);
+    let mut record = sequence.take(&now, index);
+    let mut near: Vec<bool> =
+        sequence.standing.seats.iter().map(|seat| seat.force_n != [0.0; 2]).collect();
+    for look in 0..=LOOKS {
+        if record.mechanism.is_some() {
+            break;
+        }
+        let depth_m = DEPTH * sequence.standing.largest_m();
+        let gaps = sequence.standing.gaps_m();
+        let mut is_new = look == 0 && near.contains(&true);
+        for (near, gap) in near.iter_mut().zip(&gaps) {
+            let sinks = gap.is_some_and(|gap| gap.iter().any(|gap| *gap < -depth_m));
+            is_new |= sinks && !*near;
+            *near = gap.is_some() && (*near || sinks);
+        }
+        if !is_new {
+            break;
+        }
+        if look == LOOKS {
+            near.iter_mut().zip(&gaps).for_each(|(near, gap)| *near = gap.is_some());
+        }
+        let is_settled = sequence.press(&near, &gaps);
+        record = sequence.take(&now, index);
+        if !is_settled {
+            return (record, false);
+        }
+    }
+    (record, true)
+}
