@@ -19,6 +19,7 @@
 use std::borrow::Cow;
 
 use super::frame::Frame;
+use super::ldl::Pair;
 use super::seat::{Seat, all_reactions};
 use super::solve::SolveError;
 use super::stages::{Sequence, Stage, StageRecord};
@@ -33,10 +34,11 @@ const ROUNDS_OF_ALL: usize = 16;
 const AS_MUCH: f64 = 1e-9;
 /// A pull below this part of the largest reaction is rounding.
 const NO_PULL: f64 = 1e-12;
-/// Rounds of looking for nodes that come back to the surface; then all that let go are looked at.
+/// Rounds of looking for nodes that come back to the surface, or are not yet quite on it; in the last all that
+/// let go are looked at.
 const LOOKS: usize = 8;
 /// Depth below the surface, as part of the largest displacement, that is rounding: solves end at a residual of
-/// 1e-10, and nodes that rest have been seen 7e-12 deep.
+/// 1e-10, and what is deeper is mended by another look.
 const DEPTH: f64 = 1e-9;
 
 /// Adhesion of a node to what it rests on, in some stages of a print.
@@ -232,13 +234,19 @@ fn rest(sequence: &mut Sequence, stage: &Stage, index: usize) -> (StageRecord, b
         }
         let depth_m = DEPTH * sequence.standing.largest_m();
         let gaps = sequence.standing.gaps_m();
-        let mut is_new = look == 0 && near.contains(&true);
-        for (near, gap) in near.iter_mut().zip(&gaps) {
-            let sinks = gap.is_some_and(|gap| gap.iter().any(|gap| *gap < -depth_m));
-            is_new |= sinks && !*near;
-            *near = gap.is_some() && (*near || sinks);
+        let mut is_off = look == 0 && near.contains(&true);
+        let forces_n: Vec<Pair> = sequence.standing.seats.iter().map(|seat| seat.force_n).collect();
+        for ((near, gap), force_n) in near.iter_mut().zip(&gaps).zip(&forces_n) {
+            let off = |side: usize| {
+                let gap_m = gap.map_or(0.0, |gap| gap[side]);
+                // what presses has to touch, within what the solve of a softer frame left
+                gap_m < -depth_m || (force_n[side] > 0.0 && gap_m > depth_m)
+            };
+            let is_here = off(ONE_SHOT) || off(STAGED);
+            is_off |= is_here;
+            *near = gap.is_some() && (*near || is_here);
         }
-        if !is_new {
+        if !is_off {
             break;
         }
         if look == LOOKS {
