@@ -229,6 +229,8 @@ impl Fill<'_> {
             node: stage.node,
             utilisation: stage.utilisation.and_then(number),
             residual: number(stage.residual),
+            hold: stage.hold.and_then(number),
+            released_m: stage.released_m.and_then(number),
         }
     }
 

@@ -224,6 +224,10 @@ pub struct Stage {
     pub utilisation: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: Option<f64>,
+    /// Largest pull on what bed or form holds over what it holds; null: nothing there may lift.
+    pub hold: Option<f64>,
+    /// Largest displacement by this release with the shrinkage locked in, staged, m; null: no release.
+    pub released_m: Option<f64>,
 }
 
 /// What moves a node that a strand begins or ends on, each part by itself, in part axes.

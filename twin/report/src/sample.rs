@@ -153,6 +153,8 @@ pub(crate) fn report() -> Report {
             node: Some(3),
             utilisation: Some(0.02),
             residual: Some(1e-12),
+            hold: Some(0.3),
+            released_m: None,
         }],
         landings: vec![Landing {
             strand: "s7".to_owned(),

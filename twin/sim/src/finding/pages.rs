@@ -35,6 +35,7 @@ pub(super) fn page(code: Code) -> &'static str {
         Code::S401 => include_str!("pages/S401.md"),
         Code::S402 => include_str!("pages/S402.md"),
         Code::S406 => include_str!("pages/S406.md"),
+        Code::S410 => include_str!("pages/S410.md"),
         Code::E501 => include_str!("pages/E501.md"),
         Code::E502 => include_str!("pages/E502.md"),
         Code::E504 => include_str!("pages/E504.md"),

@@ -88,6 +88,7 @@ pub enum Code {
     S401,
     S402,
     S406,
+    S410,
     E501,
     E502,
     E504,
@@ -97,7 +98,7 @@ pub enum Code {
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 36] = [
         Self::R101,
         Self::R102,
         Self::R103,
@@ -128,6 +129,7 @@ impl Code {
         Self::S401,
         Self::S402,
         Self::S406,
+        Self::S410,
         Self::E501,
         Self::E502,
         Self::E504,
@@ -168,6 +170,7 @@ impl Code {
             Self::S401 => "S401",
             Self::S402 => "S402",
             Self::S406 => "S406",
+            Self::S410 => "S410",
             Self::E501 => "E501",
             Self::E502 => "E502",
             Self::E504 => "E504",
@@ -223,6 +226,7 @@ impl Code {
             Self::S401 => "node is not where the nozzle expects it",
             Self::S402 => "strand printed on nothing",
             Self::S406 => "finished part gives way under its loads",
+            Self::S410 => "part lets go of bed or form",
             Self::E501 => "too much on the flange",
             Self::E502 => "hose pulled or twisted too far",
             Self::E504 => "program takes too long",
@@ -259,6 +263,7 @@ impl Code {
             | Self::R108
             | Self::C207
             | Self::S402
+            | Self::S410
             | Self::C208
             | Self::P302
             | Self::P307

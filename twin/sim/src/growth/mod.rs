@@ -4,6 +4,7 @@
 //! The mechanics are in `structure`; here is what a print makes of them.
 
 mod build;
+mod hold;
 mod landing;
 mod loads;
 #[cfg(test)]
@@ -41,6 +42,10 @@ pub struct StageResult {
     pub utilisation: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: f64,
+    /// Largest pull on what bed or form holds over what it holds (S410).
+    pub hold: Option<f64>,
+    /// Largest displacement by a release with the shrinkage locked in, staged, m.
+    pub released_m: Option<f64>,
 }
 
 /// What became of the frame.
@@ -89,8 +94,13 @@ pub fn grow(
     let stages: Vec<Stage> = plan.iter().map(|planned| planned.stage.clone()).collect();
     let ask = Ask { staged: true, strengths: &strengths, keep: &keep };
     let records = solve_stages(&built.weightless_strain(), &stages, ask)?;
-    let results =
-        plan.iter().zip(&records).map(|(planned, record)| result(planned, record)).collect();
+    let held = hold::judge(job, printed, &built, (&plan, &stages), findings)?;
+    let results = plan
+        .iter()
+        .zip(&records)
+        .zip(&held)
+        .map(|((planned, record), held)| result(planned, record, held))
+        .collect();
     for (planned, record) in plan.iter().zip(&records) {
         floats(job, printed, &built, planned, record, findings);
     }
@@ -168,7 +178,7 @@ fn gravity(job: &Job, motion: &Motion, n_printed: usize) -> Vector {
     job.gravity_in_part(&world_from_tip)
 }
 
-fn result(planned: &Planned, record: &StageRecord) -> StageResult {
+fn result(planned: &Planned, record: &StageRecord, held: &hold::StageHold) -> StageResult {
     let one_shot = record.one_shot.as_ref();
     StageResult {
         printed: planned.printed,
@@ -178,6 +188,8 @@ fn result(planned: &Planned, record: &StageRecord) -> StageResult {
         node: one_shot.map(|state| state.max_node),
         utilisation: one_shot.and_then(|state| state.utilisation).map(|used| used.value),
         residual: one_shot.map_or(0.0, |state| state.residual),
+        hold: held.share,
+        released_m: held.released_m,
     }
 }
 

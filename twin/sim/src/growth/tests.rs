@@ -7,7 +7,7 @@ use crate::structure::Section;
 use crate::test_job::{job, strand, text};
 use crate::toolpath;
 
-const RADIUS_M: f64 = 1e-3;
+pub(super) const RADIUS_M: f64 = 1e-3;
 
 /// PLA-like, 2 mm, fully set, without shrinkage.
 const LAW: StrandLaw = StrandLaw {
@@ -23,16 +23,16 @@ const LAW: StrandLaw = StrandLaw {
 };
 
 /// A print as planned: beads where the strands are.
-struct Print {
-    job: Job,
+pub(super) struct Print {
+    pub(super) job: Job,
     motion: Motion,
     deposit: Deposit,
     contacts: Vec<Contact>,
-    laws: Vec<StrandLaw>,
+    pub(super) laws: Vec<StrandLaw>,
 }
 
 impl Print {
-    fn new(more: &str, strands: &[String]) -> Self {
+    pub(super) fn new(more: &str, strands: &[String]) -> Self {
         let job = job(&text("kr10-cone", more, &strands.join(",")));
         let motion = motion::plan(&job, &toolpath::paths(&job));
         let bead = |printing: &motion::Printing| {
@@ -53,15 +53,18 @@ impl Print {
         Self { job, motion, deposit, contacts, laws }
     }
 
-    fn built(&self) -> Built {
+    pub(super) fn built(&self) -> Built {
         build(&self.job, &self.deposit, &self.contacts, &self.laws)
     }
 
-    fn grown(&self) -> (Growth, Vec<Finding>) {
-        let Self { job, motion, deposit, contacts, laws } = self;
+    pub(super) fn printed(&self) -> Printed<'_> {
+        let Self { motion, deposit, contacts, laws, .. } = self;
+        Printed { deposit, contacts, laws, motion }
+    }
+
+    pub(super) fn grown(&self) -> (Growth, Vec<Finding>) {
         let mut findings = Findings::default();
-        let printed = Printed { deposit, contacts, laws, motion };
-        let growth = grow(job, &printed, &mut findings).expect("a small frame");
+        let growth = grow(&self.job, &self.printed(), &mut findings).expect("a small frame");
         (growth, findings.sorted())
     }
 }

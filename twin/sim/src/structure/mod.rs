@@ -3,8 +3,9 @@
 //! A node has six freedoms in the order x, y, z, turn about x, y, z, in the axes of the part. Two
 //! answers are given for every stage, and they differ: *one-shot* puts all gravity on the frame as
 //! it is so far; *staged* lets each member be born free of stress on the frame as it then stands.
-//! Displacements are small: nothing here sees contact or a member that slackens, and [`buckling`]
-//! only says by what factor the loads may grow before that is wrong.
+//! Displacements are small: nothing here sees a member that slackens, nor contact but that of nodes with
+//! what they rest on ([`Hold`]), and [`buckling`] only says by what factor the loads may grow before that is
+//! wrong.
 
 mod assembly;
 mod balance;
@@ -18,6 +19,7 @@ mod frame;
 mod geometric;
 mod ground;
 mod growing;
+mod hold;
 mod lanczos;
 mod ldl;
 mod one_sided;
@@ -33,7 +35,7 @@ mod tests;
 pub use buckling::{BucklingAsk, BucklingError, Mode, buckling};
 pub use euler::{EULER_FLAG, Slender, slender};
 pub use frame::{Frame, FrameFault, Member, NodeLoad, Support};
-pub use one_sided::{Hold, Holding, Pull};
+pub use hold::{Hold, Holding, Pull, solve_held};
 pub use section::{Elastic, Section};
 pub use solve::{Load, Solution, SolveError, solve};
 pub use stages::{Ask, Stage, StageRecord, StageState, solve_held_stages, solve_stages};

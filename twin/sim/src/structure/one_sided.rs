@@ -19,6 +19,7 @@
 use std::borrow::Cow;
 
 use super::frame::Frame;
+use super::hold::{Hold, Holding, Pull};
 use super::ldl::Pair;
 use super::seat::{Seat, all_reactions};
 use super::solve::SolveError;
@@ -40,57 +41,6 @@ const LOOKS: usize = 8;
 /// Depth below the surface, as part of the largest displacement, that is rounding: solves end at a residual of
 /// 1e-10, and what is deeper is mended by another look.
 const DEPTH: f64 = 1e-9;
-
-/// Adhesion of a node to what it rests on, in some stages of a print.
-///
-/// Several for one node in one stage add up. Without effect where no support holds the node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hold {
-    /// The node.
-    pub node: usize,
-    /// Unit vector out of the surface to the bead, axes of the part.
-    pub normal: Vector,
-    /// Greatest pull along the normal, N; infinite: cannot lift.
-    pub pull_n: f64,
-    /// First stage (index) it counts in.
-    pub from: usize,
-    /// First stage it no longer counts in.
-    pub until: usize,
-}
-
-/// A support, how hard it is pulled, and how hard it may be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pull {
-    /// Its node.
-    pub node: usize,
-    /// Pull along the normal, N; negative where it is pressed.
-    pub pull_n: f64,
-    /// Greatest pull it holds, N.
-    pub held_n: f64,
-}
-
-impl Pull {
-    /// Pull over what is held; nothing where it is pressed.
-    pub fn share(&self) -> f64 {
-        if self.pull_n > 0.0 { self.pull_n / self.held_n } else { 0.0 }
-    }
-}
-
-/// What became of supports with adhesion at a stage.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Holding {
-    /// The support with the largest share before any lets go at this stage: adhesion larger by this share
-    /// would hold here.
-    pub worst: Option<Pull>,
-    /// Nodes that let go at this stage, in the order in which they do.
-    pub let_go: Vec<usize>,
-    /// Nodes that have let go, now or before, and rest on the surface (staged), ascending.
-    pub resting: Vec<usize>,
-    /// Rounds of letting go.
-    pub rounds: usize,
-    /// Whether the rounds ended with nothing pulled too hard and no node in the surface.
-    pub is_settled: bool,
-}
 
 /// The holds of a sequence.
 pub(super) struct Grip<'a> {

@@ -7,7 +7,7 @@ use super::grows::Chance;
 use super::*;
 use crate::structure::complementary::{complementary, one_by_one};
 use crate::structure::{
-    Ask, Hold, Holding, Stage, StageRecord, StageState, solve_held_stages, solve_stages,
+    Ask, Hold, Holding, Stage, StageRecord, StageState, solve_held, solve_held_stages, solve_stages,
 };
 
 const DOWN: [f64; 3] = [0.0, 0.0, -9.80665];
@@ -96,6 +96,35 @@ fn what_pulls_as_hard_as_it_is_held_lets_go() {
     pulled.at_nodes = vec![force(1, -up)];
     let record = &run(&frame, &[pulled], &[hold(1, up, 0.0)])[0];
     assert!(holding(record).let_go.is_empty());
+}
+
+/// The plain form for one frame is a print of one stage; shrinkage only where it is asked for.
+#[test]
+fn one_frame_by_itself() {
+    let frame = Frame::new(
+        vec![Point::origin(), Point::new(0.0, 0.0, 0.04)],
+        vec![Member { initial_strain: -0.001, ..rod([0, 1]) }],
+    )
+    .unwrap();
+    let supports = clamped([0, 1]);
+    let pull_n = 0.001 * 3.5e9 * rod([0, 1]).section.area_m2;
+    for (with_initial_strain, held_n, goes) in
+        [(true, 1.01, false), (true, 0.99, true), (false, 0.99, false)]
+    {
+        let load = Load { with_initial_strain, ..Load::default() };
+        let holds = [hold(0, Vector::z(), held_n * pull_n)];
+        let record = solve_held(&frame, &supports, &holds, &load).unwrap();
+        assert_eq!(holding(&record).let_go, if goes { vec![0] } else { vec![] });
+        let wanted = if with_initial_strain { pull_n } else { 0.0 };
+        assert!((holding(&record).worst.unwrap().pull_n - wanted).abs() < 1e-12 * pull_n);
+        if goes {
+            near(staged(&record).displacement[0][2], 4e-5, 1e-12);
+        }
+    }
+    assert!(solve_held(&frame, &supports, &[hold(2, Vector::z(), 1.0)], &Load::default()).is_err());
+    assert!(
+        solve_held(&frame, &supports, &[hold(0, Vector::zeros(), 1.0)], &Load::default()).is_err()
+    );
 }
 
 /// With holds that cannot lift the answers are, to the bit, those without holds.
