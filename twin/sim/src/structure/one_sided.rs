@@ -6,13 +6,13 @@
 //! ```
 //! R is the staged reaction, a the greatest pull, n out of the surface, u₀ where the node was when it
 //! let go. Letting go hands R to the frame within the same stage: the staged answer grows by steps, so
-//! that is one step more. Of those that are pulled too hard the one most so goes first (those as much so with it), the frame
-//! finds its rest, and so on: as if the load of the stage had grown evenly. What has let go never
-//! holds again; one stage ends after as many rounds as it has supports, and after [`ROUNDS`] by the
-//! most pulled all that are pulled too hard go together.
+//! that is one step more. Of those pulled too hard the one most so goes first (and those as much so
+//! with it), the frame finds its rest, and so on: as if the load of the stage had grown evenly. What
+//! has let go never holds again; past [`ROUNDS`] of a print all that are pulled too hard go together.
 //!
-//! The surface is rigid and without friction; resting is solved exactly, by flexibilities along the normals (`W = nᵀ K⁻¹ n`,
-//! one solve for each node near the surface), not by springs, so nothing sinks in. Adhesion is a mean
+//! The surface is rigid and without friction. Resting is solved exactly, by flexibilities along the
+//! normals (`W = nᵀ K⁻¹ n`, half a solve for each node near the surface) and not by springs, so nothing
+//! sinks in. Adhesion is a mean
 //! stress over the area of contact: a crack that runs along the edge (peeling) is not seen, nor
 //! shear along the surface, nor the moment at the node.
 
@@ -27,24 +27,30 @@ use super::stages::{Sequence, Stage, StageRecord};
 use super::standing::{ONE_SHOT, STAGED};
 use crate::pose::Vector;
 
-/// Rounds in which only the most pulled support lets go.
-const ROUNDS: usize = 48;
-/// Rounds in which all that are pulled too hard let go together.
+/// Rounds of a whole print in which only the most pulled support lets go: each may cost a new factor.
+const ROUNDS: usize = 256;
+/// Rounds of a stage.
+const ROUNDS_OF_STAGE: usize = 64;
+/// Rounds at the end of those in which all that are pulled too hard let go together.
 const ROUNDS_OF_ALL: usize = 16;
+/// Nodes of those that let go that are solved for at once; each takes half a solve at each stage.
+const MOST_SEATS: usize = 256;
 /// Supports pulled as much as the most pulled one, but for rounding, let go with it.
 const AS_MUCH: f64 = 1e-9;
 /// A pull below this part of the largest reaction is rounding.
 const NO_PULL: f64 = 1e-12;
-/// Rounds of looking for nodes that come back to the surface, or are not yet quite on it; in the last all that
-/// let go are looked at.
+/// Rounds of looking for nodes that come back to the surface, or are not yet quite on it; in the last
+/// all that let go are looked at.
 const LOOKS: usize = 8;
-/// Depth below the surface, as part of the largest displacement, that is rounding: solves end at a residual of
-/// 1e-10, and what is deeper is mended by another look.
+/// Depth below the surface, as part of the largest displacement, that is rounding: solves end at a
+/// residual of 1e-10, and what is deeper is mended by another look.
 const DEPTH: f64 = 1e-9;
 
 /// The holds of a sequence.
 pub(super) struct Grip<'a> {
     holds: &'a [Hold],
+    /// Rounds so far.
+    rounds: usize,
 }
 
 impl<'a> Grip<'a> {
@@ -58,12 +64,17 @@ impl<'a> Grip<'a> {
         };
         match holds.iter().find(|hold| !sound(hold)) {
             Some(hold) => Err(SolveError::BadNode { node: hold.node }),
-            None => Ok(Self { holds }),
+            None => Ok(Self { holds, rounds: 0 }),
         }
     }
 
     /// One stage, with all that lets go in it.
-    pub(super) fn take(&self, sequence: &mut Sequence, stage: &Stage, index: usize) -> StageRecord {
+    pub(super) fn take(
+        &mut self,
+        sequence: &mut Sequence,
+        stage: &Stage,
+        index: usize,
+    ) -> StageRecord {
         if self.holds.is_empty() {
             return sequence.take(stage, index);
         }
@@ -95,25 +106,20 @@ impl<'a> Grip<'a> {
             if !(most >= 1.0) {
                 break record;
             }
-            if holding.rounds == ROUNDS + ROUNDS_OF_ALL {
+            if holding.rounds == ROUNDS_OF_STAGE {
                 holding.is_settled = false;
                 break record;
             }
-            let least = if holding.rounds < ROUNDS { most * (1.0 - AS_MUCH) } else { 1.0 };
+            let one = self.rounds < ROUNDS && holding.rounds < ROUNDS_OF_STAGE - ROUNDS_OF_ALL;
+            let least = if one { most * (1.0 - AS_MUCH) } else { 1.0 };
             for pull in pulls.iter().filter(|pull| pull.share() >= least.max(1.0)) {
                 holding.let_go.push(pull.node);
                 sequence.standing.let_go(pull.node, held[pull.node].normal);
             }
             holding.rounds += 1;
+            self.rounds += 1;
         };
-        let seats = &sequence.standing.seats;
-        let rests = seats.iter().filter(|seat| seat.force_n[STAGED] > 0.0);
-        holding.resting = rests.map(|seat| seat.node).collect();
-        holding.resting.sort_unstable();
-        let sides = [(&mut record.one_shot, ONE_SHOT), (&mut record.staged, STAGED)];
-        for (state, side) in sides.into_iter().filter_map(|(s, side)| Some((s.as_mut()?, side))) {
-            state.reactions = all_reactions(stage, seats, &state.reactions, side);
-        }
+        finish(sequence, stage, &mut holding, &mut record);
         record.holding = Some(holding);
         record
     }
@@ -133,6 +139,18 @@ impl<'a> Grip<'a> {
             }
         }
         held
+    }
+}
+
+/// Who rests, and the reactions in the order of the stage's own supports.
+fn finish(sequence: &Sequence, stage: &Stage, holding: &mut Holding, record: &mut StageRecord) {
+    let seats = &sequence.standing.seats;
+    let rests = seats.iter().filter(|seat| seat.force_n[STAGED] > 0.0);
+    holding.resting = rests.map(|seat| seat.node).collect();
+    holding.resting.sort_unstable();
+    let sides = [(&mut record.one_shot, ONE_SHOT), (&mut record.staged, STAGED)];
+    for (state, side) in sides.into_iter().filter_map(|(s, side)| Some((s.as_mut()?, side))) {
+        state.reactions = all_reactions(stage, seats, &state.reactions, side);
     }
 }
 
@@ -201,6 +219,9 @@ fn rest(sequence: &mut Sequence, stage: &Stage, index: usize) -> (StageRecord, b
         }
         if look == LOOKS {
             near.iter_mut().zip(&gaps).for_each(|(near, gap)| *near = gap.is_some());
+        }
+        if near.iter().filter(|near| **near).count() > MOST_SEATS {
+            return (record, false);
         }
         let is_settled = sequence.press(&near, &gaps);
         record = sequence.take(&now, index);

@@ -112,7 +112,7 @@ pub fn solve_held_stages(
     ask: Ask,
 ) -> Result<Vec<StageRecord>, SolveError> {
     check(frame, stages, &ask)?;
-    let grip = Grip::new(frame, holds)?;
+    let mut grip = Grip::new(frame, holds)?;
     let beams = beams(frame);
     let spans = if ask.strengths.is_empty() { Vec::new() } else { spans(frame, &beams) };
     let born = stages.last().map_or(0, |stage| stage.born);

@@ -7,6 +7,7 @@ mod buckles;
 mod changes;
 mod closed_forms;
 pub(super) mod grows;
+mod lets_go;
 mod one_sided;
 mod peers;
 mod releases;
