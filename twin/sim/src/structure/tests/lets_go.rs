@@ -7,7 +7,7 @@ use super::grows::Chance;
 use super::one_sided::{DOWN, balance, force, hold, holding, run, stage, staged};
 use super::*;
 use crate::structure::complementary::{complementary, one_by_one};
-use crate::structure::{Hold, Stage, StageRecord};
+use crate::structure::{Hold, Stage};
 
 /// A tower on `feet` feet in a ring, of which the last is clamped for good, and holds of the others.
 fn tower(
