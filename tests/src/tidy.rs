@@ -41,7 +41,10 @@ const MAY_USE: [(&str, &[&str]); 23] = [
     ("deposit", &["toolpath", "pose"]),
     ("clearance", &["deposit", "kinematics", "cell", "shape", "parry", "pose"]),
     ("collision", &["clearance", "deposit", "motion", "finding", "cell", "interval", "pose"]),
-    ("growth", &["structure", "deposit", "motion", "finding", "cell", "interval", "pose"]),
+    (
+        "growth",
+        &["structure", "deposit", "motion", "toolpath", "finding", "cell", "interval", "pose"],
+    ),
     ("aftermath", &["structure", "parry", "pose"]),
     (
         "preflight",

@@ -45,6 +45,10 @@ pub struct Stage {
     /// How far a bed that rides on the arm shakes a node while the stage stands, beyond weight, m; null: the bed stands
     /// still.
     pub shaken_m: Option<f64>,
+    /// Largest pull on what bed or form holds over what it holds; null: nothing there may lift.
+    pub hold: Option<f64>,
+    /// Largest displacement by this release with the shrinkage locked in, staged, m; null: no release.
+    pub released_m: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: Option<f64>,
 }
@@ -159,6 +163,8 @@ pub(crate) fn stage(job: &Job, built: &Built, stage: &growth::StageResult) -> St
         node_utilisation: share(&stage.weld),
         node: stage.weld.as_ref().map(|used| built.welds[used.at].node),
         shaken_m: stage.shaken.and_then(|shaken| number(shaken.translation_m)),
+        hold: stage.hold.and_then(number),
+        released_m: stage.released_m.and_then(number),
         residual: number(stage.residual),
     }
 }

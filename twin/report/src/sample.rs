@@ -162,6 +162,8 @@ pub(crate) fn report() -> Report {
             node: Some(3),
             shaken_m: None,
             residual: Some(1e-12),
+            hold: Some(0.3),
+            released_m: None,
         }],
         landings: vec![Landing {
             strand: "s7".to_owned(),

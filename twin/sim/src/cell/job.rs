@@ -4,6 +4,7 @@ use slam::Span;
 pub use slam::document::{Follow, Interpolation, Tilt};
 
 use super::machine::Cell;
+use crate::interval::Interval;
 use crate::pose::{Point, Pose, Vector};
 use crate::process::Material;
 
@@ -71,8 +72,8 @@ pub struct Form {
     pub vertices: Vec<Point>,
     /// Triangles.
     pub triangles: Vec<[u32; 3]>,
-    /// Hold of the deposit on it, Pa.
-    pub adhesion_pa: f64,
+    /// Hold of the deposit on it, Pa: as told, or that of the bed.
+    pub adhesion_pa: Interval,
 }
 
 /// What a strand rests on.

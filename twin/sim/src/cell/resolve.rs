@@ -20,6 +20,7 @@ use super::job::{
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
 use crate::kinematics::{ChainJoint, JointKind};
+use crate::interval::Interval;
 use crate::pose::{self, Point, Pose, Vector};
 use crate::process;
 
@@ -97,7 +98,7 @@ impl Resolver<'_> {
 
     fn forms(&mut self, meshes: &[Mesh]) -> Vec<Form> {
         assert_eq!(meshes.len(), self.document.forms.len(), "one mesh per form");
-        let bed_pa = self.cell.bed.adhesion_pa.nominal;
+        let bed_pa = self.cell.bed.adhesion_pa;
         let form = |(form, mesh): (&doc::Form, &Mesh)| {
             let part_from_mesh = placement(&form.placement);
             let vertices =
@@ -106,7 +107,9 @@ impl Resolver<'_> {
                 id: form.id.value.clone(),
                 vertices,
                 triangles: mesh.triangles.clone(),
-                adhesion_pa: form.adhesion_mpa.map_or(bed_pa, |mpa| mpa.value * 1e6),
+                adhesion_pa: form
+                    .adhesion_mpa
+                    .map_or(bed_pa, |mpa| Interval::exact(mpa.value * 1e6)),
             }
         };
         self.document.forms.iter().zip(meshes).map(form).collect()

@@ -41,6 +41,7 @@ pub(super) fn page(code: Code) -> &'static str {
         Code::S407 => include_str!("pages/S407.md"),
         Code::S408 => include_str!("pages/S408.md"),
         Code::S409 => include_str!("pages/S409.md"),
+        Code::S410 => include_str!("pages/S410.md"),
         Code::E501 => include_str!("pages/E501.md"),
         Code::E502 => include_str!("pages/E502.md"),
         Code::E504 => include_str!("pages/E504.md"),

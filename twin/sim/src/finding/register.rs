@@ -94,6 +94,7 @@ pub enum Code {
     S407,
     S408,
     S409,
+    S410,
     E501,
     E502,
     E504,
@@ -103,7 +104,7 @@ pub enum Code {
 
 impl Code {
     /// Every code, in order.
-    pub const ALL: [Self; 41] = [
+    pub const ALL: [Self; 42] = [
         Self::R101,
         Self::R102,
         Self::R103,
@@ -140,6 +141,7 @@ impl Code {
         Self::S407,
         Self::S408,
         Self::S409,
+        Self::S410,
         Self::E501,
         Self::E502,
         Self::E504,
@@ -186,6 +188,7 @@ impl Code {
             Self::S407 => "S407",
             Self::S408 => "S408",
             Self::S409 => "S409",
+            Self::S410 => "S410",
             Self::E501 => "E501",
             Self::E502 => "E502",
             Self::E504 => "E504",
@@ -247,6 +250,7 @@ impl Code {
             Self::S407 => "finished part yields under its loads",
             Self::S408 => "finished part collapses under its loads",
             Self::S409 => "part shakes on the moving bed",
+            Self::S410 => "part lets go of bed or form",
             Self::E501 => "too much on the flange",
             Self::E502 => "hose pulled or twisted too far",
             Self::E504 => "program takes too long",
@@ -291,6 +295,7 @@ impl Code {
             | Self::S405
             | Self::S407
             | Self::S408
+            | Self::S410
             | Self::C208
             | Self::P302
             | Self::P307

@@ -4,6 +4,7 @@
 //! The mechanics are in `structure`; here is what a print makes of them.
 
 mod build;
+mod hold;
 mod imperfect;
 mod landing;
 mod loads;
@@ -96,11 +97,11 @@ pub fn grow(
         keep: &[],
     };
     let unloaded = |stage: &Stage| Stage { trials: Vec::new(), ..stage.clone() };
-    let by_weight: Vec<Stage> = stages.iter().map(unloaded).collect();
+    let bare: Vec<Stage> = stages.iter().map(unloaded).collect();
     let keep = shown::kept(plan.len(), built.frame.nodes().len());
     let weight = Ask { staged: true, keep: &keep, ..Ask::default() };
     let (by_weight, in_all) = rayon::join(
-        || solve_stages(&built.weightless_strain(), &by_weight, weight),
+        || solve_stages(&built.weightless_strain(), &bare, weight),
         || solve_stages(&built.frame, &stages, whole),
     );
     let records: Vec<Record> = by_weight?
@@ -111,7 +112,12 @@ pub fn grow(
     let shaken = riding::shaken(job, printed.motion, &built, &plan)?;
     riding::judge(job, &built, &plan, &shaken, findings);
     let mut results = stage::results(job, printed, &built, &plan, &records, findings);
-    results.iter_mut().zip(shaken).for_each(|(result, shaken)| result.shaken = shaken);
+    let held = hold::judge(job, printed, &built, (&plan, &bare), findings)?;
+    for ((result, shaken), held) in results.iter_mut().zip(shaken).zip(held) {
+        result.shaken = shaken;
+        result.hold = held.share;
+        result.released_m = held.released_m;
+    }
     for (planned, record) in plan.iter().zip(&records) {
         floats(job, printed, &built, planned, &record.in_all, findings);
     }

@@ -72,6 +72,10 @@ pub struct StageResult {
     /// What a bed that rides on the arm does to it while it stands, beyond weight; `None` where the bed stands
     /// still.
     pub shaken: Option<Shaken>,
+    /// Largest pull on what bed or form holds over what it holds (S410); `None`: nothing there may lift.
+    pub hold: Option<f64>,
+    /// Largest displacement by a release with the shrinkage locked in, staged, m.
+    pub released_m: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot by weight.
     pub residual: f64,
 }
@@ -146,6 +150,8 @@ fn result(
         followed: None,
         buckling_failed: buckling.is_some_and(Result::is_err),
         shaken: None,
+        hold: None,
+        released_m: None,
         residual: one_shot.map_or(0.0, |state| state.residual),
     }
 }

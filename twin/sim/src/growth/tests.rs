@@ -34,11 +34,11 @@ pub(super) struct Print {
     deposit: Deposit,
     contacts: Vec<Contact>,
     bonds: Vec<Bond>,
-    laws: Vec<StrandLaw>,
+    pub(super) laws: Vec<StrandLaw>,
 }
 
 impl Print {
-    fn new(more: &str, strands: &[String]) -> Self {
+    pub(super) fn new(more: &str, strands: &[String]) -> Self {
         Self::of(job(&text("kr10-cone", more, &strands.join(","))))
     }
 
@@ -63,12 +63,12 @@ impl Print {
         Self { job, motion, deposit, contacts, bonds, laws }
     }
 
-    fn printed(&self) -> Printed<'_> {
+    pub(super) fn printed(&self) -> Printed<'_> {
         let Self { motion, deposit, contacts, bonds, laws, .. } = self;
         Printed { deposit, contacts, bonds, laws, motion }
     }
 
-    fn built(&self) -> Built {
+    pub(super) fn built(&self) -> Built {
         build(&self.job, &self.printed())
     }
 

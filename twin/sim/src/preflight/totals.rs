@@ -129,7 +129,7 @@ pub(super) fn assumptions(job: &Job, growth: &Growth) -> Vec<Assumption> {
         );
     }
     process_assumptions(job, &mut say);
-    say("structure", "linear frame of set strands; what rests on bed or form is clamped until released, not one-sided.".to_owned());
+    say("structure", "linear frame of set strands; what rests on bed or form is clamped until released; only S410 lets it go where adhesion (a mean stress, no peeling) does not hold it.".to_owned());
     say("structure", "a strand's contacts with itself are not joined.".to_owned());
     say(
         "structure",

@@ -15,7 +15,9 @@ use super::euler::{EULER_FLAG, most_slender};
 use super::frame::{Frame, NodeLoad, Support};
 use super::ground::{Ground, Tie, ground};
 use super::growing::Growing;
+use super::hold::{Hold, Holding};
 use super::ldl::Pair;
+use super::one_sided::Grip;
 use super::solve::{SolveError, check_inputs, fixed_freedoms};
 use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
 use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
@@ -76,6 +78,8 @@ pub struct StageRecord {
     pub trials: Vec<TrialState>,
     /// Buckling under the staged forces, where it was asked for.
     pub buckling: Option<Result<Buckled, BucklingError>>,
+    /// What let go and what rests; `None` where nothing was said of adhesion.
+    pub holding: Option<Holding>,
 }
 
 /// How the frame stands at a stage.
@@ -117,11 +121,25 @@ pub fn solve_stages(
     stages: &[Stage],
     ask: Ask,
 ) -> Result<Vec<StageRecord>, SolveError> {
+    solve_held_stages(frame, stages, &[], ask)
+}
+
+/// [`solve_stages`] on supports that may let go: those with a [`Hold`]; the others cannot lift.
+///
+/// # Errors
+/// As [`solve_stages`]; a hold that is unusable.
+pub fn solve_held_stages(
+    frame: &Frame,
+    stages: &[Stage],
+    holds: &[Hold],
+    ask: Ask,
+) -> Result<Vec<StageRecord>, SolveError> {
     if !ask.strengths.is_empty() {
         check_strengths(frame.members().len(), ask.strengths)?;
         check_welds(ask.welds, frame.members().len(), frame.nodes().len())?;
     }
     check_stages(frame, stages)?;
+    let mut grip = Grip::new(frame, holds)?;
     let beams = beams(frame);
     let spans = if ask.strengths.is_empty() { Vec::new() } else { spans(frame, &beams) };
     let born = stages.last().map_or(0, |stage| stage.born);
@@ -130,13 +148,14 @@ pub fn solve_stages(
         beams: &beams,
         spans: &spans,
         ask,
-        growing: Growing::new(frame, &beams, &moving(frame, stages), born),
+        growing: Growing::new(frame, &beams, &moving(frame, stages, holds), born),
         standing: Standing::new(frame),
         fresh: 0.0,
         last: stages.len().saturating_sub(1),
         mode: None,
     };
-    Ok(stages.iter().enumerate().map(|(index, stage)| sequence.take(stage, index)).collect())
+    let stages = stages.iter().enumerate();
+    Ok(stages.map(|(index, stage)| grip.take(&mut sequence, stage, index)).collect())
 }
 
 /// Members that are there and come in order, numbers that are finite.
@@ -166,8 +185,8 @@ pub(crate) fn check_stages(frame: &Frame, stages: &[Stage]) -> Result<(), SolveE
     Ok(())
 }
 
-/// Nodes that have a member at the end, without those clamped throughout.
-pub(crate) fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
+/// Nodes that have a member at the end, without those clamped throughout that cannot lift.
+pub(crate) fn moving(frame: &Frame, stages: &[Stage], holds: &[Hold]) -> Vec<bool> {
     let count = frame.nodes().len();
     let born = &frame.members()[..stages.last().map_or(0, |stage| stage.born)];
     let mut clamped = vec![true; count];
@@ -176,6 +195,7 @@ pub(crate) fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
             *clamped &= fixed == [true; 6];
         }
     }
+    holds.iter().filter(|hold| hold.pull_n.is_finite()).for_each(|hold| clamped[hold.node] = false);
     let mut moving = vec![false; count];
     for node in born.iter().flat_map(|member| member.ends) {
         moving[node] = !clamped[node];
@@ -183,13 +203,13 @@ pub(crate) fn moving(frame: &Frame, stages: &[Stage]) -> Vec<bool> {
     moving
 }
 
-struct Sequence<'a> {
-    frame: &'a Frame,
+pub(super) struct Sequence<'a> {
+    pub(super) frame: &'a Frame,
     beams: &'a [Beam],
     spans: &'a [Span<'a>],
     ask: Ask<'a>,
-    growing: Growing<'a>,
-    standing: Standing,
+    pub(super) growing: Growing<'a>,
+    pub(super) standing: Standing,
     /// Residual past [`LIMIT`] that a new factor left at the last stage that needed one.
     fresh: f64,
     /// Index of the last stage.
@@ -199,7 +219,9 @@ struct Sequence<'a> {
 }
 
 impl Sequence<'_> {
-    fn take(&mut self, stage: &Stage, index: usize) -> StageRecord {
+    /// A stage on the supports it names. Taken again with fewer supports or other forces of surfaces
+    /// it goes on from where it stood.
+    pub(super) fn take(&mut self, stage: &Stage, index: usize) -> StageRecord {
         let node_count = self.frame.nodes().len();
         let born = &self.frame.members()[..stage.born];
         let Ground { tie, mut floats } = ground(node_count, born, &stage.supports);
@@ -214,6 +236,7 @@ impl Sequence<'_> {
             staged: None,
             trials: Vec::new(),
             buckling: None,
+            holding: None,
         };
 
         let mut free = fixed_freedoms(node_count, &stage.supports).into_iter().zip(&tie);

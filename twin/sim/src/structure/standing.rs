@@ -5,6 +5,7 @@ use super::beam::{Beam, Vector12};
 use super::frame::{Frame, Member};
 use super::ground::Tie;
 use super::ldl::Pair;
+use super::seat::{Seat, add_pressed};
 use super::solve::{add_ends, node_forces};
 use super::stages::{Stage, StageState};
 use super::strength::Cut;
@@ -35,7 +36,7 @@ impl Moment<'_> {
 /// One-shot starts from where it stood: what does not change there is not solved again. Its forces
 /// are taken from its displacements anew, the staged ones grow.
 pub(super) struct Standing {
-    u: Vec<Pair>,
+    pub(super) u: Vec<Pair>,
     /// Elastic force of each member on its nodes, weight not included.
     elastic: Vec<[Pair; 12]>,
     /// Weight of each member, and the gravity it is for.
@@ -45,12 +46,14 @@ pub(super) struct Standing {
     loads: Vec<f64>,
     /// What the one-shot forces are for: factors on the stiffness, and what was free.
     factors: Vec<f64>,
-    free: Vec<[bool; 6]>,
+    pub(super) free: Vec<[bool; 6]>,
+    /// Nodes that have let go of a surface.
+    pub(super) seats: Vec<Seat>,
     /// Forces out of balance at the end of the last stage that was solved; not a number where a
     /// freedom was held.
     rest: Vec<Pair>,
     /// Forces out of balance now, and at held freedoms what the supports take.
-    gap: Vec<Pair>,
+    pub(super) gap: Vec<Pair>,
 }
 
 impl Standing {
@@ -64,6 +67,7 @@ impl Standing {
             loads: vec![0.0; freedoms],
             factors: Vec::with_capacity(frame.members().len()),
             free: vec![[false; 6]; frame.nodes().len()],
+            seats: Vec::new(),
             rest: vec![[f64::NAN; 2]; freedoms],
             gap: vec![[0.0; 2]; freedoms],
         }
@@ -202,6 +206,7 @@ impl Standing {
     fn measure(&mut self, moment: &Moment) -> Pair {
         self.gap.fill([0.0; 2]);
         add_node_loads(moment.stage, &mut self.gap);
+        add_pressed(&self.seats, &mut self.gap);
         for ((member, weight), elastic) in moment.born().iter().zip(&self.weight).zip(&self.elastic)
         {
             add(&mut self.gap, member, |row| {

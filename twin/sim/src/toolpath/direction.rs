@@ -63,13 +63,14 @@ pub fn tilted(tangent: Vector, up: Vector, bed_x: Vector, orientation: &Orientat
 }
 
 /// The surfaces of the forms.
-pub(super) struct Forms {
+pub struct Forms {
     meshes: Vec<Option<TriMesh>>,
     up: Vector,
 }
 
 impl Forms {
-    pub(super) fn new(forms: &[Form], up: Vector) -> Self {
+    /// `up`: unit, out of the bed.
+    pub fn new(forms: &[Form], up: Vector) -> Self {
         let mesh = |form: &Form| {
             TriMesh::new(form.vertices.iter().map(parry::point).collect(), form.triangles.clone())
                 .ok()
@@ -79,14 +80,19 @@ impl Forms {
 
     /// Normal of the facet nearest to `point`, turned to the upper side; up where there is none.
     fn normal(&self, form: usize, point: Point) -> Vector {
-        let Some(mesh) = self.meshes.get(form).and_then(Option::as_ref) else { return self.up };
-        let facet = mesh.project_local_point(parry::point(&point), false).subshape;
-        let triangle = mesh.triangle(facet);
+        self.nearest(form, point).map_or(self.up, |(normal, _)| normal)
+    }
+
+    /// Normal of the facet nearest to `point`, turned to the upper side, and how far the point is from it, m
+    /// (f32 of parry: a micrometre); `None` where there is no surface.
+    pub fn nearest(&self, form: usize, point: Point) -> Option<(Vector, f64)> {
+        let mesh = self.meshes.get(form).and_then(Option::as_ref)?;
+        let projected = mesh.project_local_point(parry::point(&point), false);
+        let triangle = mesh.triangle(projected.subshape);
         let [a, b, c] = [triangle.a, triangle.b, triangle.c].map(parry::from_point);
         let normal = (b - a).cross(&(c - a));
-        if normal.norm() < 1e-15 {
-            return self.up;
-        }
-        normal.normalize() * if normal.dot(&self.up) < 0.0 { -1.0 } else { 1.0 }
+        let far_m = (parry::from_point(projected.point) - point).norm();
+        let normal = if normal.norm() < 1e-15 { self.up } else { normal.normalize() };
+        Some((normal * if normal.dot(&self.up) < 0.0 { -1.0 } else { 1.0 }, far_m))
     }
 }

@@ -6,7 +6,7 @@ mod direction;
 #[cfg(test)]
 mod tests;
 
-pub use direction::tilted;
+pub use direction::{Forms, tilted};
 
 use crate::cell::{Follow, Job, Strand};
 use crate::pose::{Point, Vector};

@@ -32,7 +32,7 @@ pub fn ride_stages<'a>(
     check_stages(frame, stages)?;
     let beams = beams(frame);
     let born = stages.last().map_or(0, |stage| stage.born);
-    let mut growing = Growing::new(frame, &beams, &moving(frame, stages), born);
+    let mut growing = Growing::new(frame, &beams, &moving(frame, stages, &[]), born);
     for (index, stage) in stages.iter().enumerate() {
         let moment = Still::new(frame, &beams, stage);
         let advanced = growing.advance(&moment.wanted, &moment.free);
