@@ -19,8 +19,8 @@ use super::job::{
 };
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
-use crate::kinematics::{ChainJoint, JointKind};
 use crate::interval::Interval;
+use crate::kinematics::{ChainJoint, JointKind};
 use crate::pose::{self, Point, Pose, Vector};
 use crate::process;
 

@@ -64,7 +64,7 @@ pub(super) fn judge(
     let released = |k: &usize| plan[*k].released.is_some();
     let keep: Vec<usize> =
         (0..plan.len()).filter(released).flat_map(|k| [k.saturating_sub(1), k]).collect();
-    let ask = Ask { staged: true, strengths: &[], keep: &keep };
+    let ask = Ask { staged: true, keep: &keep, ..Ask::default() };
     let records = solve_held_stages(&built.frame, stages, &holds, ask)?;
     let mut of_node: BTreeMap<usize, Vec<&Grip>> = BTreeMap::new();
     for grip in &grips {

@@ -98,7 +98,11 @@ pub(super) fn shown(built: &Built, plan: &[Planned], records: &[Record]) -> Show
     let stage = |at: usize| ShownStage {
         stage: at,
         born: plan[at].stage.born,
-        staged: records[at].by_weight.staged.as_ref().map_or_else(Vec::new, |s| s.displacement.clone()),
+        staged: records[at]
+            .by_weight
+            .staged
+            .as_ref()
+            .map_or_else(Vec::new, |s| s.displacement.clone()),
     };
     Shown {
         stages: chosen.into_iter().map(stage).collect(),
@@ -117,7 +121,12 @@ pub(super) fn shown(built: &Built, plan: &[Planned], records: &[Record]) -> Show
 
 /// Largest staged displacement of a stage whose displacements were kept.
 fn moved_m(record: &Record) -> Option<f64> {
-    record.by_weight.staged.as_ref().filter(|s| !s.displacement.is_empty()).map(|s| s.max_translation_m)
+    record
+        .by_weight
+        .staged
+        .as_ref()
+        .filter(|s| !s.displacement.is_empty())
+        .map(|s| s.max_translation_m)
 }
 
 fn used(record: &Record) -> Option<f64> {

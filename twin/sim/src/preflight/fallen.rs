@@ -174,7 +174,8 @@ fn why(preflight: &Preflight, fails: &Fails) -> String {
         },
         Cause::Mechanism { node } => format!("node {node} moves without stiffness"),
         Cause::Breaks { member, .. } => {
-            let used = preflight.growth.stages[fails.stage].member.map_or(0.0, |used| used.share.nominal);
+            let used =
+                preflight.growth.stages[fails.stage].member.map_or(0.0, |used| used.share.nominal);
             format!(
                 "strand `{}` breaks: {used:.1} of its strength",
                 name(built.member_order[member])

@@ -13,10 +13,10 @@ mod making;
 mod program;
 mod reheating;
 mod rules;
-mod totals;
-mod tracking;
 #[cfg(test)]
 mod tests_moments;
+mod totals;
+mod tracking;
 mod view;
 
 pub use bonding::Bond;

@@ -77,7 +77,7 @@ pub fn solve_held(
         supports: supports.to_vec(),
         gravity_m_s2: load.gravity_m_s2,
         at_nodes: load.at_nodes.clone(),
-        stiffness: Vec::new(),
+        ..Stage::default()
     };
     let frame = Frame::new(frame.nodes().to_vec(), members)
         .expect("a frame that was sound, with less strain");

@@ -61,7 +61,7 @@ fn stays_that_shrink_are_pulled_off() {
     print.laws[2].strain = -0.002;
     print.laws.iter_mut().for_each(|law| law.density_kg_m3 = 1e-9);
     let (growth, findings) = print.grown();
-    let law = print.laws[2];
+    let law = print.laws[2].clone();
     let section = std::f64::consts::PI * RADIUS_M * RADIUS_M;
     let sine = height / height.hypot(reach);
     let tension_n = 0.002 * law.e_pa * section / (2.0 + 4.0 * sine.powi(3));

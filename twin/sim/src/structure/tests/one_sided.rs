@@ -9,7 +9,7 @@ pub(super) const DOWN: [f64; 3] = [0.0, 0.0, -9.80665];
 
 pub(super) fn stage(born: usize, supports: &[Support], gravity_m_s2: [f64; 3]) -> Stage {
     let supports = supports.to_vec();
-    Stage { born, supports, gravity_m_s2, at_nodes: Vec::new(), stiffness: Vec::new() }
+    Stage { born, supports, gravity_m_s2, ..Stage::default() }
 }
 
 pub(super) fn hold(node: usize, normal: Vector, pull_n: f64) -> Hold {
