@@ -18,6 +18,8 @@ mod strand_law;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_contacts;
+#[cfg(test)]
 mod tests_riding;
 mod welds;
 
