@@ -9,6 +9,7 @@ use crate::text::{Anchor, Ink, Pen};
 use crate::view::{Camera, Fit, Margins, Projection, View};
 use crate::{Backend, Engine, Picture, RenderError, check_size, draw_with};
 use image::{Rgba, RgbaImage, imageops};
+use sim::pose::Vector;
 use sim::scene::{Bounds, Row, Scene};
 
 /// More would be too small to see.
@@ -58,10 +59,15 @@ impl Places {
         self.each.first().map_or((1, 1), |place| (place[2], place[3]))
     }
 
-    /// How large the box would be drawn.
-    fn px_per_m(&self, camera: Camera, bounds: Bounds) -> f64 {
-        let corners = bounds.corners();
-        Projection::fit(camera.axes(), corners.into_iter(), self.size_px(), self.margins).px_per_m
+    /// How long the box's longest edge would be drawn, px: a long part seen end on is drawn at a large
+    /// scale and shows little.
+    fn longest_px(&self, camera: Camera, bounds: Bounds) -> f64 {
+        let corners = bounds.corners().into_iter();
+        let view = Projection::fit(camera.axes(), corners, self.size_px(), self.margins);
+        let edge = bounds.size();
+        let longest = Vector::ith(edge.imax(), edge.max());
+        let [right, up, _] = camera.axes();
+        longest.dot(&right).hypot(longest.dot(&up)) * view.px_per_m
     }
 }
 
@@ -122,7 +128,7 @@ fn largest(area: [u32; 4], count: u32, side_deg: f64, bounds: Bounds, u: f32) ->
             Camera::Orbit { azimuth_deg: side_deg + turn_deg, elevation_deg: ELEVATION_DEG };
         let places = Places::new(area, count, below, u);
         let usual = if turn_deg == 0.0 { CLEARLY_LARGER } else { 1.0 };
-        (places.px_per_m(camera, bounds) * usual, places, camera)
+        (places.longest_px(camera, bounds) * usual, places, camera)
     };
     let mut best = way((0.0, false));
     for other in ways.map(way) {

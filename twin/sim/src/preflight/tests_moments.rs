@@ -8,13 +8,13 @@ fn checked(strands: &[String]) -> Preflight {
     preflight(job(&text("printer-3axis", "", &strands.join(","))), |_| {}).expect("small")
 }
 
-/// Two posts and a bar between them, then a leaf beside.
+/// Two posts and a bar between them, then an arm from the second.
 fn gate() -> Vec<String> {
     vec![
         strand("a", &[[0.0, 0.0, 0.6], [0.0, 0.0, 20.0]], ""),
         strand("b", &[[60.0, 0.0, 0.6], [60.0, 0.0, 20.0]], ""),
         strand("c", &[[0.0, 0.0, 20.0], [60.0, 0.0, 20.0]], ""),
-        strand("d", &[[30.0, 0.0, 20.0], [30.0, 40.0, 20.0]], ""),
+        strand("d", &[[60.0, 0.0, 20.0], [60.0, 40.0, 20.0]], ""),
     ]
 }
 
