@@ -44,7 +44,8 @@ pub struct StageResult {
     pub residual: f64,
     /// Largest pull on what bed or form holds over what it holds (S410).
     pub hold: Option<f64>,
-    /// Largest displacement by a release with the shrinkage locked in, staged, m.
+    /// Largest displacement by a release with the shrinkage locked in, staged, m; `None`: no release,
+    /// or a piece of which nothing is held any more.
     pub released_m: Option<f64>,
 }
 
