@@ -47,7 +47,8 @@ pub struct Stage {
     pub shaken_m: Option<f64>,
     /// Largest pull on what bed or form holds over what it holds; null: nothing there may lift.
     pub hold: Option<f64>,
-    /// Largest displacement by this release with the shrinkage locked in, staged, m; null: no release.
+    /// Largest displacement by this release with the shrinkage locked in, staged, m; null: no release, or a piece
+    /// of which nothing is held any more.
     pub released_m: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot.
     pub residual: Option<f64>,

@@ -27,7 +27,8 @@ const HELD_BY_NOTHING: f64 = 1e6;
 pub(super) struct StageHold {
     /// Largest pull over what is held; `None`: nothing that may lift, or nothing solved.
     pub(super) share: Option<f64>,
-    /// Largest displacement by a release with shrinkage locked in, m; `None`: no release.
+    /// Largest displacement by a release with shrinkage locked in, m; `None`: no release, or a piece
+    /// of which nothing is held any more.
     pub(super) released_m: Option<f64>,
 }
 
@@ -90,8 +91,11 @@ fn share(pull: Pull) -> f64 {
     pull.share().min(HELD_BY_NOTHING)
 }
 
-/// Largest displacement between a release and the stage before, m.
+/// Largest displacement between a release and the stage before, m; `None` if a piece then floats.
 fn moved_m(records: &[StageRecord], stage: usize) -> Option<f64> {
+    if !records[stage].floats.is_empty() {
+        return None;
+    }
     let now = &records[stage].staged.as_ref()?.displacement;
     let before = stage.checked_sub(1).and_then(|before| records[before].staged.as_ref());
     let before: &[[f64; 6]] = before.map_or(&[], |state: &StageState| &state.displacement);

@@ -74,7 +74,8 @@ pub struct StageResult {
     pub shaken: Option<Shaken>,
     /// Largest pull on what bed or form holds over what it holds (S410); `None`: nothing there may lift.
     pub hold: Option<f64>,
-    /// Largest displacement by a release with the shrinkage locked in, staged, m.
+    /// Largest displacement by a release with the shrinkage locked in, staged, m; `None`: no release, or a piece of which
+    /// nothing is held any more.
     pub released_m: Option<f64>,
     /// Forces left out of balance relative to the loads, one-shot by weight.
     pub residual: f64,

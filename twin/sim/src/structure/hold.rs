@@ -7,7 +7,8 @@ use crate::pose::Vector;
 
 /// Adhesion of a node to what it rests on, in some stages of a print.
 ///
-/// Several for one node in one stage add up. Without effect where no support holds the node.
+/// Several for one node in one stage add up; on surfaces that face different ways the node cannot lift.
+/// Without effect where no support holds the node.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hold {
     /// The node.

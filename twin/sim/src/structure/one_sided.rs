@@ -46,6 +46,10 @@ const LOOKS: usize = 8;
 /// residual of 1e-10, and what is deeper is mended by another look.
 const DEPTH: f64 = 1e-9;
 
+/// Length of the mean of normals below which a node cannot lift: held by surfaces that face different ways (two
+/// of them 36° apart) it would have to slide along one, and sliding is held whatever comes.
+const FACING: f64 = 0.95;
+
 /// The holds of a sequence.
 pub(super) struct Grip<'a> {
     holds: &'a [Hold],
@@ -126,16 +130,18 @@ impl<'a> Grip<'a> {
 
     /// By node: what holds it at a stage; a pull that is infinite where it cannot lift.
     fn held(&self, node_count: usize, index: usize) -> Vec<Held> {
-        let mut held = vec![Held { normal: Vector::zeros(), pull_n: 0.0 }; node_count];
+        let mut held = vec![Held { normal: Vector::zeros(), pull_n: 0.0, count: 0.0 }; node_count];
         for hold in self.holds.iter().filter(|hold| (hold.from..hold.until).contains(&index)) {
             held[hold.node].normal += hold.normal;
             held[hold.node].pull_n += hold.pull_n;
+            held[hold.node].count += 1.0;
         }
         for held in &mut held {
-            // between opposite surfaces, or on none that was told: it cannot lift
-            match held.normal.try_normalize(1e-3) {
-                Some(normal) => held.normal = normal,
-                None => held.pull_n = f64::INFINITY,
+            let facing = held.normal.norm() / held.count;
+            if facing > FACING {
+                held.normal.normalize_mut();
+            } else {
+                held.pull_n = f64::INFINITY;
             }
         }
         held
@@ -158,6 +164,8 @@ fn finish(sequence: &Sequence, stage: &Stage, holding: &mut Holding, record: &mu
 struct Held {
     normal: Vector,
     pull_n: f64,
+    /// Holds added up.
+    count: f64,
 }
 
 /// The stage without the supports that have let go.

@@ -87,6 +87,15 @@ fn what_pulls_as_hard_as_it_is_held_lets_go() {
         let moved = Vector::from_column_slice(&staged(record).displacement[1][..3]);
         assert_eq!(moved.norm() > 0.0, goes);
     }
+    // on a wall as well it would have to slide along one of the two; on the same surface twice it is held twice
+    for (other, goes) in
+        [(Vector::x(), false), (up, false), (Vector::new(0.1, 0.0, 1.0).normalize(), false)]
+    {
+        let holds = [hold(1, up, held_n * 0.9), hold(1, other, held_n * 0.2)];
+        let record = &run(&frame, &[pulled.clone()], &holds)[0];
+        assert_eq!(!holding(record).let_go.is_empty(), goes);
+        assert_eq!(holding(record).worst.is_none(), other == Vector::x());
+    }
     // pressed, it holds without adhesion
     pulled.at_nodes = vec![force(1, -up)];
     let record = &run(&frame, &[pulled], &[hold(1, up, 0.0)])[0];
