@@ -21,7 +21,7 @@ HEAD = """// A dome of strands, laid on a mould in two layers and released from 
 {
   "slam": 1,
   "name": "dome-on-form",
-  "cell": "kr6-hot-end",
+  "cell": "cell.toml",
   "material": "pla",
   "placement": { "xyz_mm": [30, -60, 0], "rpy_deg": [0, 0, 0] },
   "environment": { "air_c": 23, "air_m_s": 0.1 },

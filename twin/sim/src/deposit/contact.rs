@@ -57,7 +57,8 @@ pub fn contacts(deposit: &Deposit) -> Vec<Contact> {
             let spacing_m = ALONGSIDE_DIAMETERS * 2.0 * segments[0].radius_m;
             let mut kept: Vec<Contact> = Vec::new();
             for contact in candidates.iter() {
-                if kept.iter().all(|other| (other.at_m[0] - contact.at_m[0]).abs() >= spacing_m) {
+                let apart_m = |other: &Contact| (other.at_m[0] - contact.at_m[0]).abs();
+                if kept.iter().all(|other| apart_m(other) >= spacing_m * (1.0 - 1e-9)) {
                     kept.push(*contact);
                 }
             }
@@ -82,22 +83,56 @@ fn touching(
         if other.order >= segment.order {
             continue;
         }
-        let [s, t] = closest(&segment.ends, &other.ends);
-        let point = |segment: &Segment, share: f64| {
-            segment.ends[0] + (segment.ends[1] - segment.ends[0]) * share
-        };
-        let points = [point(segment, s), point(other, t)];
-        if (points[1] - points[0]).norm() <= TOUCH_SHARE * (segment.radius_m + other.radius_m) {
-            let at = |segment: &Segment, share: f64| {
-                segment.at_m[0] + (segment.at_m[1] - segment.at_m[0]) * share
-            };
-            by_pair.entry(other.order).or_default().push(Contact {
-                orders: [segment.order, other.order],
-                at_m: [at(segment, s), at(other, t)],
-                points,
-            });
+        let [nearest, _] = closest(&segment.ends, &other.ends);
+        for share in stations(segment, other, nearest) {
+            if let Some(contact) = at(segment, other, share) {
+                by_pair.entry(other.order).or_default().push(contact);
+            }
         }
     }
+}
+
+/// Shares along a piece at which it is looked at: where it is nearest; and if the two lie alongside, from there on both ways as
+/// far apart as contacts are. They lie alongside where the gap opens by less from one contact to the next than
+/// flattening takes up; at a larger angle they part.
+fn stations(segment: &Segment, other: &Segment, nearest: f64) -> impl Iterator<Item = f64> {
+    let [own, along] = [segment, other].map(|piece| piece.ends[1] - piece.ends[0]);
+    let spacing_m = ALONGSIDE_DIAMETERS * 2.0 * segment.radius_m;
+    let opens_m = own.cross(&along).norm() / (own.norm() * along.norm()) * spacing_m;
+    let is_alongside = opens_m <= (TOUCH_SHARE - 1.0) * (segment.radius_m + other.radius_m);
+    let step = if is_alongside { spacing_m / own.norm() } else { f64::INFINITY };
+    // what rounding leaves short of a whole step is one
+    let steps = move |room: f64| (room / step + 1e-9).floor().clamp(0.0, 1e6) as usize;
+    let back = (1..=steps(nearest)).map(move |k| (nearest - step * k as f64).max(0.0));
+    let forth = (1..=steps(1.0 - nearest)).map(move |k| (nearest + step * k as f64).min(1.0));
+    std::iter::once(nearest).chain(back).chain(forth)
+}
+
+/// The contact at a share along a piece, if the other is near enough there.
+fn at(segment: &Segment, other: &Segment, share: f64) -> Option<Contact> {
+    let point = |segment: &Segment, share: f64| {
+        segment.ends[0] + (segment.ends[1] - segment.ends[0]) * share
+    };
+    let own = point(segment, share);
+    let along = other.ends[1] - other.ends[0];
+    let square = along.norm_squared();
+    let foot = if square > 0.0 {
+        ((own - other.ends[0]).dot(&along) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let points = [own, point(other, foot)];
+    if (points[1] - points[0]).norm() > TOUCH_SHARE * (segment.radius_m + other.radius_m) {
+        return None;
+    }
+    let at_m = |segment: &Segment, share: f64| {
+        segment.at_m[0] + (segment.at_m[1] - segment.at_m[0]) * share
+    };
+    Some(Contact {
+        orders: [segment.order, other.order],
+        at_m: [at_m(segment, share), at_m(other, foot)],
+        points,
+    })
 }
 
 /// Shares along two straight pieces at their nearest points.

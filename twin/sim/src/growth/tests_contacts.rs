@@ -67,25 +67,26 @@ fn a_landing_is_the_sum_of_its_parts() {
     let print = Print::new("", &[a, b, c]);
     let (growth, findings) = print.grown();
     let landing = &growth.landings[0];
-    let sum = landing.frame_m
-        + landing.shrinkage_m
-        + landing.sag_m
-        + landing.weight_m
-        + landing.push_m;
+    let sum =
+        landing.frame_m + landing.shrinkage_m + landing.sag_m + landing.weight_m + landing.push_m;
     assert!((sum.norm() - landing.sum_m).abs() < 1e-15);
     assert_eq!((landing.strand, landing.at_end), (1, false));
-    let found = findings.iter().find(|it| it.code == Code::S401).expect("a lone strut is pushed over");
+    let found =
+        findings.iter().find(|it| it.code == Code::S401).expect("a lone strut is pushed over");
     assert!(found.hint.contains("print it after `c`"), "{}", found.hint);
     let left = |change: &Change| {
         let remedy = landing.remedies.iter().find(|remedy| remedy.change == *change);
         remedy.unwrap_or_else(|| panic!("{:?}", landing.remedies)).left_m
     };
     // after `c` the node is braced: the same as the print in that order says
-    let swapped = Print::new(r#""sequence": ["a", "c", "b"], "#, &[
-        strand("a", &[[0.0, 0.0, 1.0], [15.0, 0.0, 31.0]], FROM_BED),
-        strand("b", &[[15.0, 0.0, 31.0], [40.0, 0.0, 31.0]], ""),
-        strand("c", &[[15.0, 20.0, 1.0], [15.0, 0.0, 31.0]], FROM_BED),
-    ]);
+    let swapped = Print::new(
+        r#""sequence": ["a", "c", "b"], "#,
+        &[
+            strand("a", &[[0.0, 0.0, 1.0], [15.0, 0.0, 31.0]], FROM_BED),
+            strand("b", &[[15.0, 0.0, 31.0], [40.0, 0.0, 31.0]], ""),
+            strand("c", &[[15.0, 20.0, 1.0], [15.0, 0.0, 31.0]], FROM_BED),
+        ],
+    );
     let (braced, _) = swapped.grown();
     let then = braced.landings.iter().find(|it| it.strand == 1).expect("`b` lands");
     let after = left(&Change::After(2));
