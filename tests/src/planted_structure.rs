@@ -33,18 +33,34 @@ fn leaning(limits: &str, lean_mm: f64, more: &str) -> Files {
 
 /// A bridge from one post to another, or to nothing, and a strand that begins on its far end.
 fn portal(length_mm: f64, order: &[&str]) -> Files {
-    let (left, right) = ([0.0, 0.0, 10.0], [length_mm, 0.0, 10.0]);
+    let (left, right) = ([0.0, 0.0, 6.0], [length_mm, 0.0, 6.0]);
+    // each is cold when the next comes
+    let cools = r#", "dwell_s": 30"#;
     let strands = [
-        strand("post1", &[[0.0; 3], left], ""),
-        strand("post2", &[[length_mm, 0.0, 0.0], right], ""),
-        strand("bridge", &[left, right], ""),
-        strand("next", &[right, [length_mm + 4.0, 0.0, 18.0]], ""),
+        strand("post1", &[[0.0; 3], left], cools),
+        strand("post2", &[[length_mm, 0.0, 0.0], right], cools),
+        strand("bridge", &[left, right], cools),
+        strand("next", &[right, [length_mm + 4.0, 0.0, 14.0]], ""),
     ];
     let there: Vec<String> = strands
         .into_iter()
         .filter(|text| order.iter().any(|id| text.contains(&format!("\"{id}\""))))
         .collect();
     job("", &there.join(",\n"), &format!(r#", "sequence": {order:?}"#))
+}
+
+/// A bridge of ABS from a post to one that leans in, which its shrinkage and the nozzle bend the same way.
+fn shrunk(lean_mm: f64) -> Files {
+    let (left, right) = ([0.0, 0.0, 10.0], [60.0, 0.0, 10.0]);
+    let strands = [
+        strand("post1", &[[0.0; 3], left], ""),
+        strand("post2", &[[60.0 + lean_mm, 0.0, 0.0], right], ""),
+        strand("bridge", &[left, right], "").replace("1.5", "6"),
+        strand("next", &[right, [60.0, 6.0, 18.0]], ""),
+    ];
+    let mut files = job(r#""node_miss_mm": 0.4"#, &strands.join(",\n"), "");
+    files[0].1 = files[0].1.replace("\"pla\"", "\"abs\"");
+    files
 }
 
 /// Two posts and a bridge, clamped at its feet, pushed down in the middle.
@@ -85,7 +101,7 @@ fn leaf(limits: &str, gap_mm: f64, lean_mm: f64, pull_n: Option<f64>) -> Files {
     ];
     let loads = pull_n.map_or_else(String::new, |pull_n| {
         format!(
-            r#", "loads": [{{"name": "pull", "supports": [{{"at_mm": [0, -30, 0.6], "fix": "xyzr"}}, {{"at_mm": [0, 30, 0.6], "fix": "xyzr"}}], "forces": [{{"at_mm": [{lean_mm:?}, 0, 12], "force_n": [0, 0, {pull_n:?}]}}]}}]"#
+            r#", "loads": [{{"name": "pull", "supports": [{{"at_mm": [0, -30, 0.6], "fix": "xyzr"}}, {{"at_mm": [0, 30, 0.6], "fix": "xyzr"}}], "forces": [{{"at_mm": [{lean_mm:?}, 0, 12], "force_n": [{pull_n:?}, 0, 0]}}]}}]"#
         )
     });
     let count = if pull_n.is_some() { 2 } else { 3 };
@@ -93,6 +109,8 @@ fn leaf(limits: &str, gap_mm: f64, lean_mm: f64, pull_n: Option<f64>) -> Files {
 }
 
 const WIDE: &str = r#""node_miss_mm": 20, "clearance_mm": 0.5"#;
+const STRONG: &str = r#""load_factor": 0.01"#;
+const CLOSE: &str = r#""deflection_mm": 500, "node_miss_mm": 20, "clearance_mm": 0.5"#;
 const BENDS: &str = r#""deflection_mm": 500, "node_miss_mm": 20"#;
 const HIGH: &str = r#""buckling_factor": 200"#;
 
@@ -115,93 +133,42 @@ fn fault(
 
 fn faults() -> Vec<Fault> {
     let all = ["post1", "post2", "bridge", "next"];
+    let next = ("S401", "next", "nozzle push");
+    let strut = ("S403", "strut", "while the nozzle presses");
+    let rod_buckles = ("S404", "rod", "buckles");
+    let leaf_tears = ("S405", "leaf", "`leaf` holds to the frame");
+    let bends = ("S406", "", "bends the part");
+    let bridge_yields = ("S407", "bridge", "is used up");
+    let node_yields = ("S407", "leaf", "holds to the frame");
     let mut list = vec![
-        fault("Pushed", [8.0, 4.0], |x| leaning("", x, ""), ("S401", "next", "nozzle push")),
-        fault(
-            "ThinStrut",
-            [0.75, 1.2],
-            |d| leaning("", 4.0, &bead(d)),
-            ("S401", "next", "nozzle push"),
-        ),
-        fault(
-            "Strained",
-            [16.0, 5.0],
-            |x| leaning(WIDE, x, ""),
-            ("S403", "strut", "while the nozzle presses"),
-        ),
-        fault(
-            "ThinStrained",
-            [0.7, 1.2],
-            |d| leaning(WIDE, 5.0, &bead(d)),
-            ("S403", "strut", "while the nozzle presses"),
-        ),
-        fault("TallRod", [140.0, 80.0], |h| rod(HIGH, h, None, ""), ("S404", "rod", "buckles")),
-        fault(
-            "ThinRod",
-            [0.8, 1.2],
-            |d| rod(HIGH, 80.0, None, &bead(d)),
-            ("S404", "rod", "buckles"),
-        ),
-        fault(
-            "LeaningLeaf",
-            [8.0, 0.5],
-            |x| leaf(WIDE, 0.9, x, None),
-            ("S405", "leaf", "`leaf` holds to the frame"),
-        ),
-        fault(
-            "WeakNode",
-            [1.25, 0.7],
-            |z| leaf(WIDE, z, 1.5, None),
-            ("S405", "leaf", "`leaf` holds to the frame"),
-        ),
-        fault("Load", [9.0, 3.0], |n| pressed("", n, 2, ""), ("S406", "", "bends the part")),
-        fault(
-            "LoadYields",
-            [16.0, 4.0],
-            |n| pressed(BENDS, n, 2, ""),
-            ("S407", "bridge", "is used up"),
-        ),
-        fault(
-            "ThinYields",
-            [0.7, 1.2],
-            |d| pressed(BENDS, 3.0, 2, &bead(d)),
-            ("S407", "bridge", "is used up"),
-        ),
-        fault(
-            "ThinBends",
-            [0.7, 1.2],
-            |d| pressed("", 2.0, 2, &bead(d)),
-            ("S406", "", "bends the part"),
-        ),
+        fault("Pushed", [8.0, 4.0], |x| leaning("", x, ""), next),
+        fault("ThinStrut", [0.75, 1.2], |d| leaning("", 4.0, &bead(d)), next),
+        fault("Strained", [16.0, 5.0], |x| leaning(WIDE, x, ""), strut),
+        fault("ThinStrained", [0.7, 1.2], |d| leaning(WIDE, 5.0, &bead(d)), strut),
+        fault("TallRod", [140.0, 80.0], |h| rod(HIGH, h, None, ""), rod_buckles),
+        fault("ThinRod", [0.8, 1.2], |d| rod(HIGH, 80.0, None, &bead(d)), rod_buckles),
+        fault("LeaningLeaf", [8.0, 0.5], |x| leaf(WIDE, 0.9, x, None), leaf_tears),
+        fault("WeakNode", [1.25, 0.7], |z| leaf(WIDE, z, 1.5, None), leaf_tears),
+        fault("Load", [9.0, 3.0], |n| pressed(STRONG, n, 2, ""), bends),
+        fault("ThinBends", [0.7, 1.2], |d| pressed(STRONG, 2.0, 2, &bead(d)), bends),
+        fault("LoadYields", [16.0, 1.0], |n| pressed(BENDS, n, 2, ""), bridge_yields),
+        fault("ThinYields", [0.7, 1.2], |d| pressed(BENDS, 1.0, 2, &bead(d)), bridge_yields),
+        fault("WeakNodeLoaded", [1.15, 0.7], |z| leaf(CLOSE, z, 0.5, Some(0.2)), node_yields),
+        fault("PushOnLeaf", [2.0, 0.1], |n| leaf(CLOSE, 1.0, 0.5, Some(n)), node_yields),
         fault(
             "LoadOnColumn",
             [1.5, 0.2],
             |n| rod(BENDS, 40.0, Some(n), ""),
             ("S408", "", "buckles the part"),
         ),
-        fault(
-            "WeakNodeLoaded",
-            [1.25, 0.7],
-            |z| leaf(BENDS, z, 0.5, Some(1.0)),
-            ("S407", "leaf", "holds to the frame"),
-        ),
-        fault(
-            "PullOnLeaf",
-            [80.0, 0.5],
-            |n| leaf(BENDS, 0.9, 0.5, Some(n)),
-            ("S407", "leaf", "holds to the frame"),
-        ),
     ];
     let missing = ["post1", "bridge", "next"];
     let swapped = ["post1", "bridge", "next", "post2"];
     for (name, order) in [("MissingPost", &missing[..]), ("SwappedOrder", &swapped[..])] {
         let order = order.to_vec();
-        let bridge =
-            fault(name, [18.0, 6.0], move |l| portal(l, &order), ("S401", "next", "nozzle push"));
+        let bridge = fault(name, [18.0, 3.0], move |l| portal(l, &order), next);
         list.push(Fault { sound: portal(18.0, &all), ..bridge });
     }
-    let sum =
-        fault("OnlyTheSum", [8.0, 4.0], |x| leaning("", x, ""), ("S401", "next", "nozzle push"));
     let of = |_: f64| Expected {
         code: "S401",
         strand: "next",
@@ -209,6 +176,7 @@ fn faults() -> Vec<Fault> {
         at_mm: None,
         also: Some(no_part_alone),
     };
+    let sum = fault("OnlyTheSum", [6.0, 1.0], shrunk, next);
     list.push(Fault { expected: Box::new(of), ..sum });
     list
 }

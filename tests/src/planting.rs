@@ -14,16 +14,20 @@ use crate::tools;
 /// Names and texts of what a job is made of; `job.slam` among them.
 pub(crate) type Files = Vec<(&'static str, String)>;
 
+/// Looks at a report and the finding in it; an error says what is wrong.
+pub(crate) type Also = fn(&Value, &Value) -> Result<(), String>;
+
 /// What must be found.
 pub(crate) struct Expected {
     pub(crate) code: &'static str,
+    /// Empty: of no strand.
     pub(crate) strand: &'static str,
     /// The cause, as the message says it.
     pub(crate) says: &'static str,
     /// Range of the arc length, mm.
     pub(crate) at_mm: Option<[f64; 2]>,
     /// What the report must show beside it.
-    pub(crate) also: Option<fn(&Value, &Value) -> Result<(), String>>,
+    pub(crate) also: Option<Also>,
 }
 
 /// A kind of fault.
@@ -94,7 +98,7 @@ fn missed(fault: &Fault, x: f64, folder: &Path) -> Result<f64, String> {
             at_m.is_some_and(|at_m| (low - 1e-6..=high + 1e-6).contains(&(at_m * 1e3)))
         };
         finding["code"] == expected.code
-            && finding["site"]["strand"] == expected.strand
+            && finding["site"]["strand"].as_str().unwrap_or("") == expected.strand
             && finding["message"].as_str().is_some_and(|text| text.contains(expected.says))
             && expected.at_mm.is_none_or(within)
     };

@@ -17,7 +17,7 @@ const MAY_USE: [(&str, &[&str]); 23] = [
     ("dynamics", &["kinematics", "pose"]),
     ("process", &["interval", "pose"]),
     ("calibration", &["process", "interval"]),
-    ("structure", &["pose"]),
+    ("structure", &["interval", "pose"]),
     ("validation", &["structure", "process", "interval", "pose"]),
     ("finding", &["interval", "pose"]),
     ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),
@@ -43,7 +43,17 @@ const MAY_USE: [(&str, &[&str]); 23] = [
     ("collision", &["clearance", "deposit", "motion", "finding", "cell", "interval", "pose"]),
     (
         "growth",
-        &["structure", "deposit", "motion", "toolpath", "finding", "cell", "interval", "pose"],
+        &[
+            "structure",
+            "deposit",
+            "motion",
+            "toolpath",
+            "process",
+            "finding",
+            "cell",
+            "interval",
+            "pose",
+        ],
     ),
     ("aftermath", &["structure", "parry", "pose"]),
     (

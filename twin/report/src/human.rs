@@ -181,7 +181,7 @@ fn frame(report: &Report, screen: &mut Screen) {
         let yields = first_yield(load);
         let buckles = load
             .buckling_factor
-            .map_or_else(String::new, |factor| format!(", buckling at {}", digits(factor)));
+            .map_or_else(String::new, |factor| format!(", buckles at {}", digits(factor)));
         let value = match &load.fault {
             Some(fault) => format!("not solved: {fault}"),
             None => format!("bends {}{yields}{buckles}", Unit::Millimetre.show(load.deflection_m)),
@@ -214,15 +214,15 @@ fn used(report: &Report, screen: &mut Screen) {
     );
     let least = report.stages.iter().filter_map(|stage| stage.buckling_factor).reduce(f64::min);
     let told: Vec<String> = [
-        members.map(|share| format!("members to {share} of their strength")),
+        members.map(|share| format!("members to {share}")),
         nodes.map(|share| format!("nodes to {share}")),
-        least.map(|factor| format!("buckling at {} times what it carries", digits(factor))),
+        least.map(|factor| format!("buckling at {} times its load", digits(factor))),
     ]
     .into_iter()
     .flatten()
     .collect();
     if !told.is_empty() {
-        screen.line(&format!("strength   while printing {}", told.join(", ")));
+        screen.line(&format!("strength   used while printing: {}", told.join(", ")));
     }
 }
 
@@ -238,11 +238,11 @@ fn first_yield(load: &LoadCase) -> String {
     };
     let range = match (first.expected.value, first.expected.low, first.expected.high) {
         (Some(value), Some(low), Some(high)) => {
-            format!(" (expect {}, {} to {})", digits(value), digits(low), digits(high))
+            format!(" (worth {}, {} to {})", digits(value), digits(low), digits(high))
         }
         _ => String::new(),
     };
-    format!(", first yield of {what} at {} times the load{range}", digits(factor))
+    format!(", {what} yields at {} times{range}", digits(factor))
 }
 
 fn totals(report: &Report, screen: &mut Screen) {

@@ -1,6 +1,6 @@
 //! A small report made by hand.
 
-use crate::frame::{Landing, LoadCase, Stage};
+use crate::frame::{Landing, LoadCase, Stage, Yield, YieldCriterion};
 use crate::parts::{
     Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
     Timing, Totals, Verdict,
@@ -212,7 +212,13 @@ pub(crate) fn report() -> Report {
             name: "seat".to_owned(),
             deflection_m: Some(2.4e-3),
             first_yield: Some(3.2),
-            yields: Vec::new(),
+            yields: vec![Yield {
+                criterion: YieldCriterion::Fibre,
+                factor: Some(3.2),
+                expected: range(2.464, 1.65, 3.49),
+                strand: Some("s3".to_owned()),
+                node: None,
+            }],
             plastic_factor: None,
             buckling_factor: Some(8.5),
             followed_factor: None,

@@ -237,7 +237,7 @@ fn bench(criterion: &mut Criterion) {
         let strength = Strength { tension_pa: 4e7, compression_pa: 6e7 };
         let strengths = vec![strength; members];
         let one_shot = Ask::default();
-        let all = Ask { staged: true, strengths: &strengths, keep: &[] };
+        let all = Ask { staged: true, strengths: &strengths, ..Ask::default() };
         if nodes < 200 {
             let (ours, theirs) = (most_one_shot(&frame, &stages, one_shot), naive(&frame));
             assert!((ours / theirs - 1.0).abs() < 1e-6, "{ours} {theirs}: not the same answer");

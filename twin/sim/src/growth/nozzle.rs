@@ -47,14 +47,14 @@ pub(super) fn comings(
     for (index, planned) in plan.iter().enumerate() {
         before_strand[planned.printed] = Some(index);
     }
-    for order in 0..built.ends.len() {
+    for (order, ends) in built.ends.iter().enumerate() {
         let Some(stage) = before_strand[order] else { continue };
         let before = &mut plan[stage];
         let is_free = |node: &usize| {
             first_member[*node] < before.stage.born
                 && before.stage.supports.iter().all(|support| support.node != *node)
         };
-        let nodes = built.ends[order].map(|node| Some(node).filter(is_free));
+        let nodes = ends.map(|node| Some(node).filter(is_free));
         if nodes == [None; 2] {
             continue;
         }

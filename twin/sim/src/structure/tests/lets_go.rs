@@ -179,7 +179,7 @@ fn neither_order_nor_axes_matter() {
                     let part = |from: usize| {
                         turn.inverse() * Vector::from_column_slice(&six[from..from + 3])
                     };
-                    [part(0), part(3)].map(|v| <[f64; 3]>::from(v)).concat()
+                    [part(0), part(3)].map(<[f64; 3]>::from).concat()
                 };
                 let (a, b) = (&staged(plain).displacement, &staged(&other).displacement);
                 let turned: Vec<f64> = b.iter().flat_map(back).collect();
