@@ -11,10 +11,13 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use faer::linalg::solvers::SolveCore;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky,
+};
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, Mat, Side};
+use faer::{Conj, Mat, Par, Side};
 use nalgebra::{DMatrix, DVector};
 use sim::pose::{Point, Vector};
 use sim::structure::{
@@ -170,8 +173,9 @@ fn add(
     }
 }
 
-/// What faer takes to factor and to solve for two right sides at every `step`th strut, unborn
-/// freedoms uncoupled; the numbers of K are added strut by strut, at no cost worth naming.
+/// What faer takes to factor (supernodal, which is its fastest here at every size) and to solve for two right sides at every
+/// `step`th strut on one core, unborn freedoms uncoupled; the numbers of K are added strut by strut, at no cost worth
+/// naming.
 fn refactored(frame: &Frame, ground: usize, step: usize) -> f64 {
     let n = 6 * (frame.nodes().len() - ground);
     let place = |node: usize| node.checked_sub(ground).map(|at| 6 * at);
@@ -191,7 +195,17 @@ fn refactored(frame: &Frame, ground: usize, step: usize) -> f64 {
     let mut all = parts.concat();
     all.extend((0..n).map(|at| Triplet::new(at, at, 0.0)));
     let mut k = SparseColMat::try_new_from_triplets(n, n, &all).expect("a pattern");
-    let symbolic = SymbolicLlt::try_new(k.symbolic(), Side::Lower).expect("memory");
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..Default::default()
+    };
+    let order = SymmetricOrdering::Amd;
+    let symbolic =
+        factorize_symbolic_cholesky(k.symbolic(), Side::Lower, order, params).expect("memory");
+    let request = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+    let mut memory =
+        MemBuffer::new(request.or(symbolic.solve_in_place_scratch::<f64>(2, Par::Seq)));
+    let mut values = vec![0.0; symbolic.len_val()];
     k.val_mut().fill(0.0);
     let position = |k: &SparseColMat<usize, f64>, row: usize, column: usize| {
         let rows = k.symbolic().row_idx_of_col_raw(column);
@@ -210,9 +224,22 @@ fn refactored(frame: &Frame, ground: usize, step: usize) -> f64 {
             k.val_mut()[to] += entry.val - if first { 1.0 } else { 0.0 };
         }
         if at % step == 0 {
-            let factor = Llt::try_new_with_symbolic(symbolic.clone(), k.as_ref(), Side::Lower);
+            let factor = symbolic.factorize_numeric_llt(
+                &mut values,
+                k.as_ref(),
+                Side::Lower,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                Default::default(),
+            );
             let mut x = Mat::<f64>::full(n, 2, 1.0);
-            factor.expect("no stage floats").solve_in_place_with_conj(Conj::No, x.as_mut());
+            factor.expect("no stage floats").solve_in_place_with_conj(
+                Conj::No,
+                x.as_mut(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+            );
             sum += x[(0, 0)];
         }
     }
