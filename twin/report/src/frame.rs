@@ -102,6 +102,14 @@ pub struct LoadCase {
     pub name: String,
     /// Largest displacement of a node under weight and forces, m; null: not solved.
     pub deflection_m: Option<f64>,
+    /// Sum of the forces, N.
+    pub load_n: Option<f64>,
+    /// Weight of the frame, N.
+    pub weight_n: Option<f64>,
+    /// Stiffness under these forces: their sum over how far their places move along them, N/m; null: nothing moves.
+    pub stiffness_n_m: Option<f64>,
+    /// The forces at first yield, as computed, over the weight, N/N.
+    pub yield_per_weight: Option<f64>,
     /// Factor on the forces at which the first member or node is used up, as computed; null: not found.
     pub first_yield: Option<f64>,
     /// The same by each criterion.
@@ -207,6 +215,12 @@ pub(crate) fn load(job: &Job, load: &growth::LoadResult) -> LoadCase {
     LoadCase {
         name: load.name.clone(),
         deflection_m: solved.then_some(load.deflection_m).and_then(number),
+        load_n: solved.then_some(load.load_n).and_then(number),
+        weight_n: solved.then_some(load.weight_n).and_then(number),
+        stiffness_n_m: solved.then_some(load.load_n / load.travel_m).and_then(number),
+        yield_per_weight: load
+            .first_yield()
+            .and_then(|found| number(found.factor * load.load_n / load.weight_n)),
         first_yield: load.first_yield().and_then(|found| number(found.factor)),
         yields: load.yields.iter().flatten().map(yielding).collect(),
         plastic_factor: load.plastic.and_then(number),

@@ -211,6 +211,10 @@ pub(crate) fn report() -> Report {
         loads: vec![LoadCase {
             name: "seat".to_owned(),
             deflection_m: Some(2.4e-3),
+            load_n: Some(10.0),
+            weight_n: Some(0.0086),
+            stiffness_n_m: Some(4200.0),
+            yield_per_weight: Some(3700.0),
             first_yield: Some(3.2),
             yields: vec![Yield {
                 criterion: YieldCriterion::Fibre,

@@ -18,6 +18,13 @@ pub struct LoadResult {
     pub name: String,
     /// Largest displacement of a node under weight and forces, m.
     pub deflection_m: f64,
+    /// Sum of the lengths of the forces, N.
+    pub load_n: f64,
+    /// Weight of the frame, N.
+    pub weight_n: f64,
+    /// Displacement of the places of the forces along them by the forces alone, weighted by them, m: load over it is the
+    /// stiffness.
+    pub travel_m: f64,
     /// Factors on the forces at which the first member or weld is used up, by criterion; `None`: not found.
     pub yields: Option<[Yield; 3]>,
     /// Factor on the forces that the members carry for sure if the material is ductile, by a plastic lower bound; welds are
@@ -108,6 +115,9 @@ fn solve_case(
     let nothing = LoadResult {
         name: case.name.clone(),
         deflection_m: 0.0,
+        load_n: 0.0,
+        weight_n: 0.0,
+        travel_m: 0.0,
         yields: None,
         plastic: None,
         buckling: None,
@@ -118,6 +128,9 @@ fn solve_case(
     match under(&seats, &supports, forces, (gravity, is_plastic)) {
         Ok(answer) => LoadResult {
             deflection_m: answer.deflection_m,
+            load_n: answer.load_n,
+            weight_n: answer.weight_n,
+            travel_m: answer.travel_m,
             yields: answer
                 .yields
                 .map(|yields| yields.map(|found| expected(job, printed, built, &seats, &found))),
@@ -132,6 +145,9 @@ fn solve_case(
 
 struct Answer {
     deflection_m: f64,
+    load_n: f64,
+    weight_n: f64,
+    travel_m: f64,
     yields: Option<[FirstYield; 3]>,
     plastic: Option<f64>,
     buckling: Option<f64>,
@@ -155,6 +171,15 @@ fn under(
     let deflection_m = moved
         .map(|(a, b)| Vector::new(a[0] + b[0], a[1] + b[1], a[2] + b[2]).norm())
         .fold(0.0, f64::max);
+    let lengths = |load: &NodeLoad| Vector::from_column_slice(&load.load[..3]).norm();
+    let load_n: f64 = load.at_nodes.iter().map(lengths).sum();
+    let work = |load: &NodeLoad| -> f64 {
+        let u = loaded.displacement[load.node];
+        (0..3).map(|axis| load.load[axis] * u[axis]).sum()
+    };
+    let work_j: f64 = load.at_nodes.iter().map(work).sum();
+    let travel_m = if load_n > 0.0 { work_j / load_n } else { 0.0 };
+    let weight_n = seats.frame.mass_kg() * Vector::from(gravity).norm();
     let capacity = (seats.strengths.as_slice(), seats.welds.as_slice());
     let yields = first_yield(&seats.frame, capacity, (&resting, gravity), (&loaded, [0.0; 3])).ok();
     let plastic = (is_plastic && seats.frame.members().len() <= PLASTIC_MAX)
@@ -167,7 +192,7 @@ fn under(
     let is_near = buckling.is_some_and(|factor| factor < imperfect::TRUSTED);
     let followed = if is_near { imperfect::followed(&seats.frame, supports, &both) } else { None };
     let plastic = plastic.map(|found| found.bound);
-    Ok(Answer { deflection_m, yields, plastic, buckling, followed })
+    Ok(Answer { deflection_m, load_n, weight_n, travel_m, yields, plastic, buckling, followed })
 }
 
 /// A first yield with what it is worth: by the model factor for thermoplastics, else by the strength alone; a node also by how

@@ -93,3 +93,32 @@ fn a_landing_is_the_sum_of_its_parts() {
     assert!((after / then.sum_m - 1.0).abs() < 0.01, "{after} {}", then.sum_m);
     assert!(left(&Change::Prop) < 0.1 * landing.sum_m);
 }
+
+/// A cantilever under a force across its tip: stiffness, weight, and the three yields of a strand without a node.
+#[test]
+fn a_load_case_tells_stiffness_and_weight() {
+    let rod = strand("rod", &[[0.0, 0.0, 0.0], [0.0, 0.0, 40.0]], FROM_BED);
+    let loads = r#""loads": [{"name": "push", "supports": [{"at_mm": [0, 0, 0], "fix": "xyzr"}],
+        "forces": [{"at_mm": [0, 0, 40], "force_n": [0.1, 0, 0]}]}], "#;
+    let (growth, _) = Print::new(loads, &[rod]).grown();
+    let load = &growth.loads[0];
+    let (length_m, area_m2) = (0.04, std::f64::consts::PI * RADIUS_M * RADIUS_M);
+    let ei = LAW.e_pa * area_m2 * RADIUS_M * RADIUS_M / 4.0;
+    let kappa = 6.0 * (1.0 + LAW.poisson) / (7.0 + 6.0 * LAW.poisson);
+    let g_pa = LAW.e_pa / (2.0 * (1.0 + LAW.poisson));
+    let gives = length_m * length_m * length_m / (3.0 * ei) + length_m / (kappa * g_pa * area_m2);
+    assert!((load.load_n - 0.1).abs() < 1e-15);
+    assert!((load.travel_m / (0.1 * gives) - 1.0).abs() < 1e-9, "{}", load.travel_m);
+    let weight_n = LAW.density_kg_m3 * area_m2 * length_m * 9.80665;
+    assert!((load.weight_n / weight_n - 1.0).abs() < 1e-9, "{}", load.weight_n);
+    // 4 M/(π r³) reaches the strength, less what the weight presses
+    let moment = std::f64::consts::PI * RADIUS_M * RADIUS_M * RADIUS_M / 4.0
+        * (LAW.strength_pa - weight_n / area_m2);
+    let first = load.first_yield().expect("it yields");
+    assert!((first.factor / (moment / (0.1 * length_m)) - 1.0).abs() < 1e-9, "{first:?}");
+    assert_eq!((first.strand, first.node), (Some(0), None));
+    assert!((first.expected.nominal / first.factor - 0.77).abs() < 1e-12);
+    // a circle's plastic moment is 16/(3 π) of the elastic one
+    let plastic = load.plastic.expect("PLA is a thermoplastic") / first.factor;
+    assert!(plastic > 1.65 && plastic < 1.7, "{plastic}");
+}

@@ -134,6 +134,15 @@ impl Frame {
         &self.nodes
     }
 
+    /// Mass of all members, kg.
+    pub fn mass_kg(&self) -> f64 {
+        let of = |member: &Member| {
+            let [a, b] = member.ends.map(|node| self.nodes[node]);
+            member.density_kg_m3 * member.section.area_m2 * (b - a).norm()
+        };
+        self.members.iter().map(of).sum()
+    }
+
     /// Members in the order of birth.
     pub fn members(&self) -> &[Member] {
         &self.members
