@@ -145,10 +145,10 @@ impl GelStrand {
             return 0.0;
         }
         let long_m = zone(length_m);
-        if self.span_m < 2.0 * length_m && long_m > 0.0 {
-            return long_m.min(span(self.span_m));
-        }
-        long_m
+        let is_short = self.span_m < 2.0 * length_m && long_m > 0.0;
+        let sag_m = if is_short { long_m.min(span(self.span_m)) } else { long_m };
+        // powers of 1/n with n near zero cancel where they overflow
+        if sag_m < 0.0 { f64::NAN } else { sag_m }
     }
 
     /// Whether the numbers mean anything.

@@ -186,6 +186,21 @@ fn recovery_lies_between_sheared_and_rested() {
     }
 }
 
+/// Powers of hundreds cancel: no number, not a negative one.
+#[test]
+fn an_index_near_zero_sags_no_negative_number() {
+    let fluid = HerschelBulkley {
+        yield_pa: 60.0,
+        consistency_pa_sn: 20.0,
+        index: 0.001_697_898_041_317_335_4,
+    };
+    let gel = recovering(fluid, 4.934_097_085_252_959e-145, 6.236_623_725_515_179e293);
+    let strand = strand(gel, 0.001_697_898_041_317_335_4);
+    for sag in [strand.clamped_sag_m(), strand.hinged_sag_m(), strand.tip_drop_m()] {
+        assert!(sag.is_nan() || sag >= 0.0, "{sag}");
+    }
+}
+
 proptest! {
     #[test]
     fn more_yield_stress_never_more_sag(
