@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::tools::root;
 
 /// The architecture of `sim` as a table: each module, and what it may use.
-const MAY_USE: [(&str, &[&str]); 23] = [
+const MAY_USE: [(&str, &[&str]); 24] = [
     ("interval", &[]),
     ("pose", &[]),
     ("parry", &["pose"]),
@@ -76,6 +76,22 @@ const MAY_USE: [(&str, &[&str]); 23] = [
             "kinematics",
             "shape",
             "interval",
+            "pose",
+        ],
+    ),
+    (
+        "film",
+        &[
+            "preflight",
+            "scene",
+            "growth",
+            "deposit",
+            "motion",
+            "process",
+            "finding",
+            "kinematics",
+            "cell",
+            "shape",
             "pose",
         ],
     ),

@@ -4,7 +4,9 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use render::{Backend, Picture, RenderError};
-use sim::preflight::{Preflight, deformed, fallen, scene};
+use sim::film::{Film, Look, Player, Quantity};
+use sim::preflight::{Preflight, deformed, fallen};
+use sim::scene::Scene;
 
 use crate::files;
 
@@ -29,7 +31,7 @@ pub(crate) struct Drawn {
 pub(crate) fn draw(checked: &Preflight, out: &Path, backend: Backend) -> Result<Drawn, String> {
     let row = |row| render::row(&row, ROW_PX, backend);
     let made: [Option<Result<Picture, RenderError>>; 3] = [
-        Some(render::sheet(&scene(checked), CELL_PX, backend)),
+        Some(render::sheet(&finished(checked), CELL_PX, backend)),
         deformed(checked).map(row),
         fallen(checked).map(row),
     ];
@@ -55,4 +57,12 @@ fn write(picture: &Picture, path: &Path) -> Result<(), String> {
     files::write_whole(path, &png.into_inner()).map_err(|refusal| {
         refusal.diagnostics.into_iter().map(|problem| problem.message).collect::<String>()
     })
+}
+
+/// The cell with all that is printed at the end of the last strand, strands coloured by the sag behind the nozzle.
+fn finished(checked: &Preflight) -> Scene {
+    let film = Film::new(checked);
+    let done_s = film.strands.iter().filter_map(sim::film::FilmStrand::done_s).fold(0.0, f64::max);
+    let look = Look { colour: Some(Quantity::Sag), marks: true, ..Look::default() };
+    film.scene(&Player::new(checked).frame_at(done_s), &look)
 }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 fn body(name: &str, kind: BodyKind, shape: Shape) -> Body {
-    Body { name: name.into(), kind, pose: Pose::identity(), shape }
+    Body { name: name.into(), kind, pose: Pose::identity(), shape, highlighted: false }
 }
 
 /// An arm of about 0.9 m reach over a plate.

@@ -13,7 +13,7 @@ use sim::scene::solid::HitId;
 use sim::scene::{BedShape, Body, BodyKind, ColourScale, Mark, MarkSeverity, Shape, StrandShape};
 
 fn body(kind: BodyKind, shape: Shape) -> Body {
-    Body { name: format!("{kind:?}"), kind, pose: Pose::identity(), shape }
+    Body { name: format!("{kind:?}"), kind, pose: Pose::identity(), shape, highlighted: false }
 }
 
 /// One of each shape, a bed, an obstacle and a spiral.
@@ -25,6 +25,7 @@ fn scene() -> Scene {
     };
     let half_m = Vector::new(0.02, 0.2, 0.15);
     Scene {
+        planned: Vec::new(),
         bodies: vec![
             body(
                 BodyKind::Arm,

@@ -11,6 +11,7 @@ pub mod clearance;
 pub mod collision;
 pub mod deposit;
 pub mod dynamics;
+pub mod film;
 pub mod finding;
 pub mod growth;
 pub mod interval;

@@ -57,13 +57,15 @@ pub struct Nearest {
 }
 
 /// Judges every leg of the motion; legs are looked at in parallel, findings kept in order.
+///
+/// The smallest clearance of all, and that of each leg, m: `None` where nothing came nearer than twice the limit.
 pub fn check(
     job: &Job,
     motion: &Motion,
     deposit: &Deposit,
     contacts: &[Contact],
     findings: &mut Findings,
-) -> Option<Nearest> {
+) -> (Option<Nearest>, Vec<Option<f64>>) {
     let bodies = Bodies::new(job);
     let space = Space::new(job, &bodies, deposit);
     let mut by_order: Vec<Vec<&Contact>> = vec![Vec::new(); deposit.strands.len()];
@@ -86,12 +88,14 @@ pub fn check(
         far(job, findings);
     }
     let mut nearest: Option<Nearest> = None;
+    let by_leg_m =
+        parts.iter().map(|(_, near)| near.as_ref().map(|near| near.clearance_m)).collect();
     for (found, near) in parts {
         findings.absorb(found);
         nearest = nearer(nearest, near);
     }
     plough::check(job, motion, deposit, findings);
-    nearest
+    (nearest, by_leg_m)
 }
 
 /// What is further apart than the horizon was looked at too, and scores as that far.

@@ -193,7 +193,7 @@ fn what_lies_between_two_moments_is_found() {
     let leg = motion.legs.iter_mut().find(pass).expect("the pass");
     leg.moments.retain(|moment| (moment.at_m - 0.06).abs() > 10e-3);
     let mut findings = Findings::default();
-    let nearest = check(&job, &motion, &deposit, &[], &mut findings).expect("a clearance");
+    let nearest = check(&job, &motion, &deposit, &[], &mut findings).0.expect("a clearance");
     let found = findings.sorted();
     let of_post = |f: &&crate::finding::Finding| {
         f.site.bodies == ["nozzle", "post"] && f.site.phase == Some(Phase::Print)

@@ -160,6 +160,7 @@ impl Drawing<'_> {
         Scene {
             bodies: forms(preflight, stage.stage),
             strands,
+            planned: Vec::new(),
             bed: bed(preflight),
             title: format!(
                 "{}\nnodes {}, between them {}\none-shot {one_shot}{used}",
@@ -273,6 +274,7 @@ pub(super) fn forms(preflight: &Preflight, stage: usize) -> Vec<Body> {
                 vertices: form.vertices.clone(),
                 triangles: form.triangles.clone(),
             },
+            highlighted: false,
         })
         .collect()
 }

@@ -111,6 +111,7 @@ fn scene(
     let mut scene = Scene {
         bodies: forms(preflight, fails.stage),
         strands: stays.chain(moving).collect(),
+        planned: Vec::new(),
         bed: bed(preflight),
         title: format!("{:.2} s after it fails", collapse.times_s[at]),
         marks: Vec::new(),

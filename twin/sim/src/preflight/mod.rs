@@ -17,7 +17,6 @@ mod rules;
 mod tests_moments;
 mod totals;
 mod tracking;
-mod view;
 
 pub use bonding::Bond;
 pub use clear::Cleared;
@@ -28,7 +27,6 @@ pub use program::Program;
 pub use reheating::Reheated;
 pub use totals::{Assumption, Totals};
 pub use tracking::{SETTLED_M, Tracking};
-pub use view::scene;
 
 use crate::cell::Job;
 use crate::collision::{self, Nearest};
@@ -95,6 +93,8 @@ pub struct Preflight {
     pub growth: Growth,
     /// Smallest clearance measured.
     pub nearest: Option<Nearest>,
+    /// Smallest clearance on each leg of the motion, m; `None`: nothing came nearer than twice the limit.
+    pub clearance_by_leg_m: Vec<Option<f64>>,
     /// What the program asks of the arm beyond its path.
     pub program: Program,
     /// Times, lengths and mass.
@@ -169,7 +169,8 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
     let growth = growth::grow(&job, &printed, &mut findings)?;
 
     progress(Step::Collision);
-    let nearest = collision::check(&job, &motion, &deposit, &contacts, &mut findings);
+    let (nearest, clearance_by_leg_m) =
+        collision::check(&job, &motion, &deposit, &contacts, &mut findings);
 
     let totals = totals::totals(&job, &motion, &paths, &strands);
     let program =
@@ -189,6 +190,7 @@ pub fn preflight(job: Job, mut progress: impl FnMut(Step)) -> Result<Preflight, 
         reheats,
         growth,
         nearest,
+        clearance_by_leg_m,
         program,
         totals,
         assumptions,

@@ -18,6 +18,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// The deposit, one entry per strand, or per piece of strand that has a colour of its own.
     pub strands: Vec<StrandShape>,
+    /// Strands not printed yet: clear lines that hide nothing.
+    pub planned: Vec<StrandShape>,
     /// The plate that is printed on, where the cell has one.
     pub bed: Option<BedShape>,
     /// Heading of the picture.
@@ -54,6 +56,8 @@ pub struct Body {
     pub pose: Pose,
     /// Shape in the body's axes.
     pub shape: Shape,
+    /// Drawn with a coloured outline.
+    pub highlighted: bool,
 }
 
 /// What a body is.
@@ -189,7 +193,7 @@ impl BedShape {
         let t = Self::THICKNESS_M;
         let half_m = Vector::new(self.size_m[0] / 2.0, self.size_m[1] / 2.0, t / 2.0);
         let shape = Shape::Box { half_m, pose: Pose::translation(0.0, 0.0, -t / 2.0) };
-        Body { name: "bed".into(), kind: BodyKind::Bed, pose: self.pose, shape }
+        Body { name: "bed".into(), kind: BodyKind::Bed, pose: self.pose, shape, highlighted: false }
     }
 }
 

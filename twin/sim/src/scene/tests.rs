@@ -4,7 +4,13 @@ use super::*;
 use crate::pose::from_xyz_rpy;
 
 fn one(shape: Shape) -> Scene {
-    let body = Body { name: "it".into(), kind: BodyKind::Tool, pose: Pose::identity(), shape };
+    let body = Body {
+        name: "it".into(),
+        kind: BodyKind::Tool,
+        pose: Pose::identity(),
+        shape,
+        highlighted: false,
+    };
     Scene { bodies: vec![body], ..Scene::default() }
 }
 
