@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Provenance, Report, StepTime, Timing};
+use sim::film::Film;
 use sim::finding::Severity;
 use sim::preflight::{Preflight, Step, preflight};
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
-use crate::pictures::{self, Drawn};
+use crate::pictures::{self, Album};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
 use crate::{DEGRADED, FEASIBLE, FOUND, files};
@@ -101,31 +102,34 @@ impl Check {
         }
 
         let drawn = (!self.no_render).then(|| {
+            let film = Film::new(&checked);
             clock.step("drawing");
             bar.set_position(Step::ALL.len() as u64);
             bar.set_message("drawing");
             let backend = if self.cpu { render::Backend::Cpu } else { render::Backend::Auto };
-            on(pool.as_ref(), || pictures::draw(&checked, &self.out, backend))
+            let mut studio = render::Studio::new(backend, screen.drawer.clone());
+            on(pool.as_ref(), || Album::of(&checked, &film, &self.out, &mut studio))
         });
         clock.stop();
         bar.finish_and_clear();
-        if let Some(Ok(drawn)) = &drawn {
+        if let Some(drawn) = drawn.as_ref().filter(|drawn| !drawn.shots.is_empty()) {
             report.provenance.drawn_by = Some(drawn.drawn_by.clone());
             report.timing = clock.timing();
             files::write_whole(&report_path, report::to_json(&report).as_bytes())?;
         }
         self.answer(&report, &drawn, screen)?;
-        let degraded = matches!(drawn, Some(Err(_))) || missing_meshes > 0;
+        let undrawn = drawn.as_ref().is_some_and(|drawn| drawn.missing.is_some());
+        let degraded = undrawn || missing_meshes > 0;
         Ok(self.code(&checked, degraded))
     }
 
     fn answer(
         &self,
         report: &Report,
-        drawn: &Option<Result<Drawn, String>>,
+        drawn: &Option<Album>,
         screen: &mut Screen<'_>,
     ) -> Result<(), Failure> {
-        if let Some(Err(why)) = drawn {
+        if let Some(Album { missing: Some(why), .. }) = drawn {
             writeln!(screen.err, "warning: a picture was not drawn: {why}")?;
         }
         match self.format {
@@ -138,10 +142,9 @@ impl Check {
                 if !self.no_plots {
                     writeln!(screen.out, "plots    {}", self.page().display())?;
                 }
-                if let Some(Ok(Drawn { pictures, drawn_by })) = drawn {
-                    for (what, path) in pictures {
-                        let path = path.display();
-                        writeln!(screen.out, "{what:8} {path} (drawn by {drawn_by})")?;
+                for shot in drawn.iter().flat_map(|drawn| &drawn.shots) {
+                    if let Some(path) = &shot.path {
+                        writeln!(screen.out, "picture  {} ({})", path.display(), shot.words)?;
                     }
                 }
             }
@@ -180,12 +183,16 @@ impl Check {
             Refusal::whole(name(), format!("the folder cannot be made: {error}"))
                 .hint("name another with --out")
         })?;
-        let pictures = pictures::NAMES.map(|(what, file)| (self.out.join(file), what));
-        for (old, what) in pictures.into_iter().chain([(self.page(), "page")]) {
+        let there = std::fs::read_dir(&self.out).into_iter().flatten().flatten();
+        let pictures = there
+            .filter(|entry| entry.file_name().to_str().is_some_and(pictures::is_ours))
+            .map(|entry| entry.path());
+        for old in pictures.chain([self.page()]) {
             if let Err(error) = std::fs::remove_file(&old)
                 && old.is_file()
             {
-                let message = format!("the {what} of an earlier check cannot be removed: {error}");
+                let message =
+                    format!("it is left of an earlier check and cannot be removed: {error}");
                 return Err(Refusal::whole(old.display().to_string(), message));
             }
         }

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use render::{Backend, Camera, Fit, View};
-use sim::scene::Scene;
+use render::{Backend, Camera, Fit, Studio, Task, View};
 
 use crate::FEASIBLE;
 use crate::files;
@@ -64,7 +63,8 @@ fn drawing(screen: &mut Screen<'_>) -> Result<(), Failure> {
     }
     let size_px = (render::MIN_PX, render::MIN_PX);
     let view = View { size_px, camera: Camera::Isometric, fit: Fit::Cell, ghost_arm: false };
-    match render::picture(&Scene::default(), &view, Backend::Auto) {
+    let task = Task::View { scene: Box::default(), view };
+    match Studio::new(Backend::Auto, screen.drawer.clone()).draw(&task) {
         Ok(picture) => {
             writeln!(screen.out, "drawing     works: {}", picture.drawn_by)?;
             writeln!(screen.out, "font        embedded, works")?;

@@ -7,6 +7,7 @@
 mod calibrate;
 mod check;
 mod doctor;
+mod draw;
 mod explain;
 mod files;
 mod inspect;
@@ -17,6 +18,7 @@ mod names;
 mod pictures;
 mod plan;
 mod refusal;
+mod render;
 mod robot;
 mod schema;
 mod screen;
@@ -60,6 +62,7 @@ struct Twin {
 #[derive(Debug, clap::Subcommand)]
 enum Command {
     Check(check::Check),
+    Render(render::Render),
     Plan(plan::Plan),
     Map(map::Map),
     Calibrate(calibrate::Calibrate),
@@ -69,6 +72,7 @@ enum Command {
     Solve(solve::Solve),
     Validate(validate::Validate),
     Doctor(doctor::Doctor),
+    Draw(draw::Draw),
 }
 
 /// The whole program, without a terminal: `args` begin with the program's name, the answer is the
@@ -78,8 +82,14 @@ pub fn run(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> u8 {
-    let mut screen =
-        Screen { out, err, out_is_terminal: false, err_is_terminal: false, colour_asked: false };
+    let mut screen = Screen {
+        out,
+        err,
+        out_is_terminal: false,
+        err_is_terminal: false,
+        colour_asked: false,
+        drawer: None,
+    };
     run_on(args, &mut screen)
 }
 
@@ -113,6 +123,7 @@ impl Command {
     fn run(self, screen: &mut Screen<'_>) -> Result<u8, Failure> {
         match self {
             Self::Check(command) => command.run(screen),
+            Self::Render(command) => command.run(screen),
             Self::Plan(command) => command.run(screen),
             Self::Map(command) => command.run(screen),
             Self::Calibrate(command) => command.run(screen),
@@ -122,6 +133,7 @@ impl Command {
             Self::Solve(command) => command.run(screen),
             Self::Validate(command) => command.run(screen),
             Self::Doctor(command) => command.run(screen),
+            Self::Draw(command) => command.run(),
         }
     }
 }

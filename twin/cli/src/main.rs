@@ -2,12 +2,20 @@
 
 use std::io::{self, IsTerminal as _};
 use std::process::ExitCode;
+use std::time::Duration;
 
 fn main() -> ExitCode {
     let (stdout, stderr) = (io::stdout(), io::stderr());
     let colour_asked = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
         && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+    // a driver that crashes takes only the process with it that draws
+    let drawer = std::env::current_exe().ok().map(|program| render::Drawer {
+        program,
+        args: vec!["draw".into()],
+        patience: Duration::from_secs(120),
+    });
     let mut screen = cli::Screen {
+        drawer,
         out_is_terminal: stdout.is_terminal(),
         err_is_terminal: stderr.is_terminal(),
         colour_asked,

@@ -1,12 +1,14 @@
-//! The pictures of a check.
+//! The pictures of a check: what is drawn, by whom, and where it goes.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use render::{Backend, Picture, RenderError};
-use sim::film::{Film, Look, Player, Quantity};
+use image::RgbaImage;
+use render::{Camera, Fit, Picture, Studio, Task, View};
+use sim::film::{Film, FilmStrand, Look, Player, Quantity};
 use sim::preflight::{Preflight, deformed, fallen};
-use sim::scene::Scene;
+use sim::scene::{MarkSeverity, Scene};
 
 use crate::files;
 
@@ -14,55 +16,206 @@ use crate::files;
 const CELL_PX: (u32, u32) = (1600, 900);
 /// Of a row of moments: they may lie below each other.
 const ROW_PX: (u32, u32) = (1600, 1100);
+/// Of a finding from near by.
+const FINDING_PX: (u32, u32) = (800, 500);
+/// Of a picture of the film strip.
+const STRIP_PX: (u32, u32) = (640, 400);
+/// Findings drawn from near by: the first of each code, then more.
+const FINDINGS_MAX: usize = 6;
+/// Pictures of the film strip.
+const STRIP: usize = 8;
 
-/// Every picture there may be: what it is, and its file. The first is always there.
-pub(crate) const NAMES: [(&str, &str); 3] =
-    [("picture", "picture.png"), ("frame", "frame.png"), ("collapse", "collapse.png")];
+/// What a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shows {
+    /// The cell and the part when all is printed.
+    Sheet,
+    /// A finding, by its place in the report.
+    Finding(usize),
+    /// The frame as it moves while it grows.
+    Frame,
+    /// What falls where a stage fails.
+    Collapse,
+    /// The part at a time, s.
+    Moment(f64),
+}
 
-/// What was drawn.
-pub(crate) struct Drawn {
-    /// What each picture is, and where.
-    pub(crate) pictures: Vec<(&'static str, PathBuf)>,
-    /// Who drew.
+/// A picture that was drawn.
+pub(crate) struct Shot {
+    pub(crate) shows: Shows,
+    /// In a few words.
+    pub(crate) words: String,
+    pub(crate) rgba: RgbaImage,
+    /// The file it stands in by itself, if it does.
+    pub(crate) path: Option<PathBuf>,
+}
+
+/// All pictures of a check.
+pub(crate) struct Album {
+    pub(crate) shots: Vec<Shot>,
+    /// Who drew; empty where nothing was drawn.
     pub(crate) drawn_by: String,
+    /// Why something was not drawn.
+    pub(crate) missing: Option<String>,
+    /// How long it took, s.
+    pub(crate) took_s: f64,
 }
 
-/// Draws the cell, the deformed frame where it moves, and what falls where a stage fails.
-pub(crate) fn draw(checked: &Preflight, out: &Path, backend: Backend) -> Result<Drawn, String> {
-    let row = |row| render::row(&row, ROW_PX, backend);
-    let made: [Option<Result<Picture, RenderError>>; 3] = [
-        Some(render::sheet(&finished(checked), CELL_PX, backend)),
-        deformed(checked).map(row),
-        fallen(checked).map(row),
-    ];
-    let mut drawn = Drawn { pictures: Vec::new(), drawn_by: String::new() };
-    for ((what, file), picture) in NAMES.into_iter().zip(made) {
-        let Some(picture) = picture.transpose().map_err(|error| error.to_string())? else {
-            continue;
-        };
-        let path = out.join(file);
-        write(&picture, &path)?;
-        if drawn.pictures.is_empty() {
-            drawn.drawn_by = picture.drawn_by.to_string();
+impl Album {
+    /// Draws everything worth a look; each picture is in its file before the next is begun.
+    pub(crate) fn of(checked: &Preflight, film: &Film, out: &Path, studio: &mut Studio) -> Album {
+        let begun = Instant::now();
+        let mut album =
+            Album { shots: Vec::new(), drawn_by: String::new(), missing: None, took_s: 0.0 };
+        for (shows, words, task) in wanted(checked, film) {
+            let done = studio
+                .draw(&task)
+                .map_err(|error| error.to_string())
+                .and_then(|picture| album.keep(shows, words, picture, film, out));
+            if let Err(why) = done {
+                album.missing.get_or_insert(why);
+            }
         }
-        drawn.pictures.push((what, path));
+        album.took_s = begun.elapsed().as_secs_f64();
+        album
     }
-    Ok(drawn)
+
+    fn keep(
+        &mut self,
+        shows: Shows,
+        words: String,
+        picture: Picture,
+        film: &Film,
+        out: &Path,
+    ) -> Result<(), String> {
+        if self.drawn_by.is_empty() {
+            self.drawn_by = picture.drawn_by.to_string();
+        }
+        let path = file_name(shows, film).map(|name| out.join(name));
+        if let Some(path) = &path {
+            write_png(&picture.rgba, path)?;
+        }
+        self.shots.push(Shot { shows, words, rgba: picture.rgba, path });
+        Ok(())
+    }
 }
 
-fn write(picture: &Picture, path: &Path) -> Result<(), String> {
+/// The file of a picture in the folder of the answer.
+fn file_name(shows: Shows, film: &Film) -> Option<String> {
+    match shows {
+        Shows::Sheet => Some("picture.png".to_owned()),
+        Shows::Frame => Some("frame.png".to_owned()),
+        Shows::Collapse => Some("collapse.png".to_owned()),
+        Shows::Finding(index) => {
+            Some(format!("finding-{}-{}.png", index + 1, film.findings[index].code))
+        }
+        Shows::Moment(_) => None,
+    }
+}
+
+/// Whether a file of the answer's folder is a picture of an earlier check.
+pub(crate) fn is_ours(name: &str) -> bool {
+    ["picture.png", "frame.png", "collapse.png"].contains(&name)
+        || (name.starts_with("finding-") && name.ends_with(".png"))
+}
+
+/// Everything to draw, the most important first.
+fn wanted(checked: &Preflight, film: &Film) -> Vec<(Shows, String, Task)> {
+    let player = Player::new(checked);
+    let mut all = Vec::new();
+    let scene = finished(film, &player, Some(Quantity::Sag));
+    let sheet = Task::Sheet { scene: Box::new(scene), size_px: CELL_PX };
+    all.push((Shows::Sheet, "the cell, and the part when all is printed".to_owned(), sheet));
+    for index in pictured(film) {
+        let (words, scene) = finding_scene(film, &player, index);
+        let task = Task::CloseUp { scene: Box::new(scene), size_px: FINDING_PX };
+        all.push((Shows::Finding(index), words, task));
+    }
+    let row = |row| Task::Row { row: Box::new(row), size_px: ROW_PX };
+    all.extend(deformed(checked).map(|made| {
+        (Shows::Frame, "the frame under its weight as it grows".to_owned(), row(made))
+    }));
+    all.extend(fallen(checked).map(|made| {
+        (Shows::Collapse, "what falls where a stage fails (illustration)".to_owned(), row(made))
+    }));
+    for time_s in strip_times(film) {
+        let look = Look { colour: Some(Quantity::Order), planned: true, ..Look::default() };
+        let scene = film.scene(&player.frame_at(time_s), &look);
+        let view =
+            View { size_px: STRIP_PX, camera: Camera::Isometric, fit: Fit::Part, ghost_arm: true };
+        let words = format!("the part after {time_s:.1} s");
+        let scene = Scene { title: format!("{time_s:.1} s"), ..scene };
+        all.push((Shows::Moment(time_s), words, Task::View { scene: Box::new(scene), view }));
+    }
+    all
+}
+
+/// When the last strand is done, s.
+pub(crate) fn done_s(film: &Film) -> f64 {
+    film.strands.iter().filter_map(FilmStrand::done_s).fold(0.0, f64::max)
+}
+
+/// The cell with all that is printed at the end of the last strand.
+pub(crate) fn finished(film: &Film, player: &Player<'_>, colour: Option<Quantity>) -> Scene {
+    let look = Look { colour, marks: true, ..Look::default() };
+    film.scene(&player.frame_at(done_s(film)), &look)
+}
+
+/// Findings that have a place, one of each code before a second of any.
+fn pictured(film: &Film) -> Vec<usize> {
+    let mut codes: Vec<&str> = Vec::new();
+    let with_place = (0..film.findings.len()).filter(|&index| film.findings[index].at.is_some());
+    let (first, more): (Vec<usize>, Vec<usize>) = with_place.partition(|&index| {
+        let is_new = !codes.contains(&film.findings[index].code);
+        codes.push(film.findings[index].code);
+        is_new
+    });
+    let mut chosen: Vec<usize> = first.into_iter().chain(more).take(FINDINGS_MAX).collect();
+    chosen.sort_unstable();
+    chosen
+}
+
+/// A finding at its time, with its numbers.
+pub(crate) fn finding_scene(film: &Film, player: &Player<'_>, index: usize) -> (String, Scene) {
+    let finding = &film.findings[index];
+    let time_s = finding.time_s.unwrap_or_else(|| done_s(film));
+    let look = Look { finding: Some(index), planned: true, ..Look::default() };
+    let scene = film.scene(&player.frame_at(time_s), &look);
+    let severity = match finding.severity {
+        MarkSeverity::Error => "error",
+        MarkSeverity::Warning => "warning",
+        MarkSeverity::Note => "note",
+    };
+    let strand = finding.strand.and_then(|order| film.strands.get(order));
+    let strand = strand.map_or_else(String::new, |strand| format!(", strand {}", strand.id));
+    let words = format!("{} {severity}: {}{strand}, at {time_s:.2} s", finding.code, finding.words);
+    (words.clone(), Scene { title: words, ..scene })
+}
+
+/// Times of the film strip, evenly over what is printed.
+fn strip_times(film: &Film) -> Vec<f64> {
+    let laid: Vec<f64> = film.strands.iter().flat_map(|s| s.time_s.iter().copied()).collect();
+    let Some(last) = laid.len().checked_sub(1) else { return Vec::new() };
+    let mut times: Vec<f64> = (1..=STRIP).map(|k| laid[last * k / STRIP]).collect();
+    times.dedup();
+    times
+}
+
+/// Writes a PNG whole or not at all.
+pub(crate) fn write_png(rgba: &RgbaImage, path: &Path) -> Result<(), String> {
     let mut png = Cursor::new(Vec::new());
-    let made = picture.rgba.write_to(&mut png, image::ImageFormat::Png);
-    made.map_err(|error| error.to_string())?;
-    files::write_whole(path, &png.into_inner()).map_err(|refusal| {
-        refusal.diagnostics.into_iter().map(|problem| problem.message).collect::<String>()
-    })
+    rgba.write_to(&mut png, image::ImageFormat::Png).map_err(|error| error.to_string())?;
+    files::write_whole(path, &png.into_inner()).map_err(|refusal| refusal.sentences())
 }
 
-/// The cell with all that is printed at the end of the last strand, strands coloured by the sag behind the nozzle.
-fn finished(checked: &Preflight) -> Scene {
-    let film = Film::new(checked);
-    let done_s = film.strands.iter().filter_map(sim::film::FilmStrand::done_s).fold(0.0, f64::max);
-    let look = Look { colour: Some(Quantity::Sag), marks: true, ..Look::default() };
-    film.scene(&Player::new(checked).frame_at(done_s), &look)
+/// Bytes of a JPEG, for pages.
+pub(crate) fn jpeg(rgba: &RgbaImage) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let rgb = image::DynamicImage::ImageRgba8(rgba.clone()).into_rgb8();
+    let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut bytes, 84);
+    // writing to memory fails for no picture we draw; a page without one is still whole
+    if rgb.write_with_encoder(encoder).is_err() {
+        bytes.clear();
+    }
+    bytes
 }

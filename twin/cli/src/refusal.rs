@@ -34,6 +34,12 @@ impl Refusal {
         Self { source: source.clone(), diagnostics }
     }
 
+    /// What is wrong, without places.
+    pub(crate) fn sentences(&self) -> String {
+        let all: Vec<&str> = self.diagnostics.iter().map(|d| d.message.as_str()).collect();
+        all.join("; ")
+    }
+
     /// Adds what to do about the first problem.
     #[must_use]
     pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {

@@ -16,6 +16,8 @@ pub struct Screen<'a> {
     pub err_is_terminal: bool,
     /// Whether a terminal may be written to in colour (`NO_COLOR`).
     pub colour_asked: bool,
+    /// The process that draws; `None`: this one.
+    pub drawer: Option<::render::Drawer>,
 }
 
 /// Width of answers where `COLUMNS` does not say, characters.

@@ -1,7 +1,7 @@
 //! Draws a made-up cell: `demo OUT_DIR [strand segments] [gpu|cpu]`. Shows the pictures and how long they take.
 #![allow(clippy::print_stdout)] // a program for the terminal
 
-use render::{Backend, Camera, Fit, View, picture, sheet};
+use render::{Backend, Camera, Fit, Studio, Task, View};
 use sim::pose::{Point, Pose, Vector};
 use sim::scene::{
     BedShape, Body, BodyKind, Bounds, ColourScale, Mark, MarkSeverity, Scene, Shape, StrandShape,
@@ -147,7 +147,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             continue;
         }
         let start = Instant::now();
-        let done = sheet(&scene, (1600, 900), choice)?;
+        let done = Studio::new(choice, None)
+            .draw(&Task::Sheet { scene: Box::new(scene.clone()), size_px: (1600, 900) })?;
         println!("sheet {name}: {segments} segments, {:.2?}, {}", start.elapsed(), done.drawn_by);
         done.rgba.save(out.join(format!("sheet-{name}.png")))?;
         for (view, camera) in
@@ -155,7 +156,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         {
             let start = Instant::now();
             let ask = View { size_px: (1280, 800), camera, fit: Fit::Cell, ghost_arm: false };
-            let done = picture(&scene, &ask, choice)?;
+            let done = Studio::new(choice, None)
+                .draw(&Task::View { scene: Box::new(scene.clone()), view: ask })?;
             println!("{view} {name}: {:.2?}", start.elapsed());
             done.rgba.save(out.join(format!("{view}-{name}.png")))?;
         }

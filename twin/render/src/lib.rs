@@ -1,31 +1,36 @@
 //! Pictures without a window.
 //!
-//! One path for both machines: a [`Scene`](sim::scene::Scene) is captured as a [`layer`] that says
+//! A [`Studio`] draws a [`Task`], in a process of its own where it is given one. One path for both machines:
+//! a [`Scene`](sim::scene::Scene) is captured as a [`layer`] that says
 //! for every sample which thing is seen, how far and with which normal. The graphics card rasterises
 //! that, or rays of `sim` do; light, lines and letters are then put on by the same code. All views
 //! are orthographic, so a scale bar is exact.
 
+mod animation;
 mod canvas;
+mod closeup;
 mod cpu;
 mod gpu;
 mod layer;
 mod map;
 mod overlay;
 mod paint;
+mod process;
 mod row;
 mod shade;
 mod sheet;
+mod task;
 mod text;
 pub mod view;
 
 #[cfg(test)]
 mod tests;
 
+pub use animation::{apng, gif};
 use image::RgbaImage;
 pub use map::spin_map;
-pub use row::row;
-pub use sheet::sheet;
-use sim::scene::Scene;
+pub use process::{Drawer, Studio, serve};
+pub use task::Task;
 pub use view::{Camera, Fit, Projection, View};
 
 /// Which machine is asked to draw.
@@ -90,18 +95,22 @@ pub enum RenderError {
     /// The embedded font is damaged.
     #[error("the embedded font cannot be read")]
     Font,
+    /// The process that draws is lost.
+    #[error("the process that draws was lost: {0}")]
+    Process(String),
+}
+
+impl RenderError {
+    /// Whether rays might do what failed.
+    fn is_of_the_card(&self) -> bool {
+        matches!(self, Self::NoAdapter(_) | Self::Gpu(_) | Self::Process(_))
+    }
 }
 
 /// Shortest edge of a picture, px: less has no room for letters.
 pub const MIN_PX: u32 = 240;
 /// Longest edge of a picture, px.
 pub const MAX_PX: u32 = 4096;
-
-/// One view of the scene with title, scale, axes, legend and marks.
-pub fn picture(scene: &Scene, view: &View, choice: Backend) -> Result<Picture, RenderError> {
-    check_size(view.size_px)?;
-    draw_with(choice, |engine| overlay::picture(scene, view, engine))
-}
 
 /// Vulkan adapters in the order of preference, as "name (kind, driver)".
 pub fn adapters() -> Vec<String> {
@@ -136,22 +145,4 @@ impl Engine {
 fn check_size((width, height): (u32, u32)) -> Result<(), RenderError> {
     let ok = |n| (MIN_PX..=MAX_PX).contains(&n);
     if ok(width) && ok(height) { Ok(()) } else { Err(RenderError::Size { width, height }) }
-}
-
-/// Draws with the asked machine; where any may draw, a failure of the card is answered by rays.
-fn draw_with(
-    choice: Backend,
-    draw: impl Fn(&Engine) -> Result<Picture, RenderError>,
-) -> Result<Picture, RenderError> {
-    let by_rays = |because| draw(&Engine::Cpu { because });
-    if choice == Backend::Cpu {
-        return by_rays(None);
-    }
-    let by_card = || draw(&Engine::Gpu(Box::new(gpu::Gpu::open()?)));
-    match (gpu::guarded(by_card), choice) {
-        (Err(e @ (RenderError::NoAdapter(_) | RenderError::Gpu(_))), Backend::Auto) => {
-            by_rays(Some(e.to_string()))
-        }
-        (done, _) => done,
-    }
 }

@@ -46,6 +46,8 @@ pub(crate) fn picture(scene: &Scene, view: &View, engine: &Engine) -> Result<Pic
         Ink { size: 27.0 * u, rgb: INK, halo: 2.0 * u },
         &title,
     );
+    let faint = Ink { size: 18.0 * u, rgb: FAINT, halo: 2.0 * u };
+    pen.write(&mut image, [26.0 * u, 60.0 * u], Anchor::Left, faint, &view.camera.name());
     furniture(&mut image, &pen, &projection, u);
     legend::draw(&mut image, &pen, scene, [width - legend as f32, 84.0 * u], height - 190.0 * u, u);
     drawn_by(&mut image, &pen, engine, u);

@@ -81,6 +81,23 @@ fn viridis(t: f64) -> [f64; 3] {
     std::array::from_fn(|i| C.iter().rev().fold(0.0, |acc, c| acc * t + c[i]).clamp(0.0, 1.0))
 }
 
+/// Strands still to come.
+pub(crate) const PLANNED: u32 = 0x5B7FA6;
+
+/// Tone mapping: light beyond this part of full is bent towards full and never reaches it.
+const SHOULDER: f32 = 0.8;
+
+/// A lit colour as a screen can show it.
+///
+/// Below the shoulder nothing changes, so that strands keep the colours of the legend; above,
+/// `1 − (1−s)·exp(−(x−s)/(1−s))` with the same slope. A film curve over everything would shift the scale's colours.
+pub(crate) fn toned(rgb: Rgb) -> Rgb {
+    rgb.map(|x| match x > SHOULDER {
+        true => 1.0 - (1.0 - SHOULDER) * (-(x - SHOULDER) / (1.0 - SHOULDER)).exp(),
+        false => x,
+    })
+}
+
 /// Linear colour of a place on the scale, 0 to 1.
 pub(crate) fn ramp(t: f64) -> Rgb {
     let [r, g, b] = viridis(t.clamp(0.0, 1.0)).map(|s| (s * 255.0).round() as u32);

@@ -7,7 +7,7 @@ use crate::shade::shoot;
 use crate::sheet::{ELEVATION_DEG, best_side};
 use crate::text::{Anchor, Ink, Pen};
 use crate::view::{Camera, Fit, Margins, Projection, View};
-use crate::{Backend, Engine, Picture, RenderError, check_size, draw_with};
+use crate::{Engine, Picture, RenderError};
 use image::{Rgba, RgbaImage, imageops};
 use sim::pose::Vector;
 use sim::scene::{Bounds, Row, Scene};
@@ -19,15 +19,6 @@ const TURNS_DEG: [f64; 3] = [0.0, -28.0, 28.0];
 const CLEARLY_LARGER: f64 = 1.1;
 /// Colour of the word that says what a picture is not.
 const STAMP: u32 = 0xB45309;
-
-/// The moments of a row beside or below each other, whichever shows them larger.
-///
-/// # Errors
-/// As for any picture.
-pub fn row(row: &Row, size_px: (u32, u32), choice: Backend) -> Result<Picture, RenderError> {
-    check_size(size_px)?;
-    draw_with(choice, |engine| compose(row, size_px, engine))
-}
 
 /// Where the moments go: how many px each, from where on, and what of it is free of letters.
 struct Places {
@@ -71,7 +62,12 @@ impl Places {
     }
 }
 
-fn compose(row: &Row, size_px: (u32, u32), engine: &Engine) -> Result<Picture, RenderError> {
+/// The moments of a row beside or below each other, whichever shows them larger.
+pub(crate) fn compose(
+    row: &Row,
+    size_px: (u32, u32),
+    engine: &Engine,
+) -> Result<Picture, RenderError> {
     let pen = Pen::new()?;
     let (width, height) = size_px;
     let u = unit(size_px);

@@ -1,9 +1,10 @@
 //! From layers to pixels: light, shadow, creases, outlines, grid lines and ground.
 
+mod edl;
 mod light;
 
 use crate::layer::{FLOOR, Layer, NOTHING, Sample, Things, outline, thing};
-use crate::paint::{HIGHLIGHT, Palette, Rgb, bytes, hex, mix, scaled};
+use crate::paint::{HIGHLIGHT, PLANNED, Palette, Rgb, bytes, hex, mix, scaled, toned};
 use crate::view::{Fit, Margins, Projection, View};
 use crate::{Engine, RenderError};
 use image::{Rgba, RgbaImage};
@@ -20,6 +21,10 @@ const THINNEST_PX: f64 = 1.2;
 /// How much of what is behind shows through an obstacle and a ghost of the arm.
 const OBSTACLE_GLASS: f32 = 0.72;
 const GHOST_GLASS: f32 = 0.84;
+/// How much a strand that is still to come covers what is behind it.
+const PLANNED_COVER: f32 = 0.42;
+/// Lines of strands to come are at least this wide, px.
+const PLANNED_PX: f64 = 1.1;
 
 const SKY: (u32, u32) = (0xFAFBFC, 0xE6EAEF);
 
@@ -59,6 +64,14 @@ pub(crate) fn shoot(
         true => None,
         false => Some(clear.capture(engine, &fine)?),
     };
+    let lines = Scene { strands: scene.planned.clone(), ..Scene::default() };
+    let planned = match lines.strands.is_empty() {
+        true => None,
+        false => {
+            let thin_m = 0.5 * PLANNED_PX / projection.px_per_m;
+            Some(Things::new(&lines, engine, thin_m, |_| true).capture(engine, &fine)?)
+        }
+    };
     let lit = near.map_or(everything, |b| widened(b, 0.5));
     let light = Light::new(&projection, &lit, &solid, engine)?;
     let floor = Floor::new(&everything, &projection);
@@ -67,7 +80,8 @@ pub(crate) fn shoot(
     }
     let palette = Palette::new(scene);
     let shader = Shader { scene, view, fine, palette, light, floor };
-    Ok(Shot { image: shader.image(&front, pane.as_ref()), projection })
+    let layers = Layers { front: &front, pane: pane.as_ref(), planned: planned.as_ref() };
+    Ok(Shot { image: shader.image(&layers), projection })
 }
 
 fn widened(b: Bounds, part: f64) -> Bounds {
@@ -78,11 +92,21 @@ fn widened(b: Bounds, part: f64) -> Bounds {
 /// How clear a thing is drawn, if it is.
 fn glass_of(scene: &Scene, view: &View, id: HitId) -> Option<f32> {
     let HitId::Body(i) = id else { return None };
-    match scene.bodies.get(i)?.kind {
+    let body = scene.bodies.get(i)?;
+    match body.kind {
+        _ if body.highlighted => None,
         BodyKind::Obstacle => Some(OBSTACLE_GLASS),
-        BodyKind::Arm | BodyKind::OtherArm | BodyKind::Tool if view.ghost_arm => Some(GHOST_GLASS),
+        _ if view.ghost_arm && is_ghost(scene, i) => Some(GHOST_GLASS),
         _ => None,
     }
+}
+
+/// Whether a body may be drawn as of glass so that it does not hide the part.
+pub(crate) fn is_ghost(scene: &Scene, body: usize) -> bool {
+    scene.bodies.get(body).is_some_and(|body| {
+        !body.highlighted
+            && matches!(body.kind, BodyKind::Arm | BodyKind::OtherArm | BodyKind::Tool)
+    })
 }
 
 /// Whether a pixel and the samples about it show one smooth surface, so that one sample stands for all.
@@ -125,6 +149,16 @@ impl Floor {
     }
 }
 
+/// What is seen of a view, each by itself.
+struct Layers<'a> {
+    /// Solid things and the floor.
+    front: &'a Layer,
+    /// Things of glass.
+    pane: Option<&'a Layer>,
+    /// Strands still to come.
+    planned: Option<&'a Layer>,
+}
+
 struct Shader<'a> {
     scene: &'a Scene,
     view: &'a View,
@@ -135,13 +169,13 @@ struct Shader<'a> {
 }
 
 impl Shader<'_> {
-    fn image(&self, front: &Layer, pane: Option<&Layer>) -> RgbaImage {
+    fn image(&self, layers: &Layers<'_>) -> RgbaImage {
         let (width, height) = self.view.size_px;
         let mut image = RgbaImage::new(width, height);
         let row_bytes = 4 * width as usize;
         image.par_chunks_mut(row_bytes).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.chunks_exact_mut(4).enumerate() {
-                let [r, g, b] = bytes(self.pixel(x as i64, y as i64, front, pane));
+                let [r, g, b] = bytes(self.pixel(x as i64, y as i64, layers));
                 pixel.copy_from_slice(&Rgba([r, g, b, 255]).0);
             }
         });
@@ -149,25 +183,37 @@ impl Shader<'_> {
     }
 
     /// Mean of the samples of a pixel.
-    fn pixel(&self, x: i64, y: i64, front: &Layer, pane: Option<&Layer>) -> Rgb {
+    fn pixel(&self, x: i64, y: i64, layers: &Layers<'_>) -> Rgb {
         let n = i64::from(FINE);
-        let open = 1.0 - occlusion(front, x * n, y * n);
-        if pane.is_none_or(|pane| whole(pane, x * n, y * n)) && whole(front, x * n, y * n) {
-            let rgb = self.sample(x * n, y * n, front, open);
-            return match pane {
-                None => rgb,
-                Some(pane) => self.through(x * n, y * n, pane, front.at(x * n, y * n), rgb),
-            };
+        let front = layers.front;
+        let (x, y) = (x * n, y * n);
+        let open = (1.0 - occlusion(front, x, y)) * edl::open(front, x, y);
+        let even = |layer: Option<&Layer>| layer.is_none_or(|layer| whole(layer, x, y));
+        if even(layers.pane) && even(layers.planned) && whole(front, x, y) {
+            return self.seen(x, y, layers, open);
         }
         let mut sum = [0.0; 3];
-        for (sx, sy) in (0..n).flat_map(|j| (0..n).map(move |i| (x * n + i, y * n + j))) {
-            let mut rgb = self.sample(sx, sy, front, open);
-            if let Some(pane) = pane {
-                rgb = self.through(sx, sy, pane, front.at(sx, sy), rgb);
-            }
+        for (x, y) in (0..n).flat_map(|j| (0..n).map(move |i| (x + i, y + j))) {
+            let rgb = self.seen(x, y, layers, open);
             sum = std::array::from_fn(|i| sum[i] + rgb[i]);
         }
         scaled(sum, 1.0 / (FINE * FINE) as f32)
+    }
+
+    /// One sample of all layers.
+    fn seen(&self, x: i64, y: i64, layers: &Layers<'_>, open: f32) -> Rgb {
+        let front = layers.front.at(x, y);
+        let mut rgb = self.sample(x, y, layers.front, open);
+        if let Some(planned) = layers.planned.map(|planned| planned.at(x, y))
+            && planned.id != NOTHING
+            && planned.depth_m < front.depth_m
+        {
+            rgb = mix(rgb, hex(PLANNED), PLANNED_COVER);
+        }
+        match layers.pane {
+            None => rgb,
+            Some(pane) => self.through(x, y, pane, front, rgb),
+        }
     }
 
     fn sample(&self, x: i64, y: i64, layer: &Layer, open: f32) -> Rgb {
@@ -187,7 +233,7 @@ impl Shader<'_> {
             base = self.plate(base, bed, at, &normal);
         }
         let shine = if matches!(thing(sample.id), Some(HitId::Bed)) { 0.0 } else { 0.10 };
-        let lit = self.light.on(base, at, &normal, &self.fine.forward, open, shine);
+        let lit = toned(self.light.on(base, at, &normal, &self.fine.forward, open, shine));
         self.outlined(lit, x, y, layer)
     }
 
@@ -259,6 +305,7 @@ impl Shader<'_> {
         let here = layer.at(x, y);
         let highlighted = match thing(here.id) {
             Some(HitId::Strand(i)) => self.scene.strands.get(i).is_some_and(|s| s.highlighted),
+            Some(HitId::Body(i)) => self.scene.bodies.get(i).is_some_and(|b| b.highlighted),
             _ => false,
         };
         // samples: a wide rim calls for attention, a thin one only parts things

@@ -6,7 +6,7 @@ use crate::paint::{FAINT, INK};
 use crate::shade::shoot;
 use crate::text::{Anchor, Ink, Pen};
 use crate::view::{Camera, Fit, Margins, Projection, View};
-use crate::{Backend, Engine, Picture, RenderError, check_size, cpu, draw_with, layer};
+use crate::{Engine, Picture, RenderError, cpu, layer};
 use image::{Rgba, RgbaImage, imageops};
 use sim::scene::cast::Caster;
 use sim::scene::solid::{HitId, solids};
@@ -17,16 +17,15 @@ const SIDES_DEG: [f64; 4] = [-50.0, 40.0, -140.0, 130.0];
 pub(crate) const ELEVATION_DEG: f64 = 28.0;
 const CLEARLY_MORE: f64 = 1.3;
 
-/// The whole cell, and beside it the part as seen through the arm, with one legend for both.
-pub fn sheet(scene: &Scene, size_px: (u32, u32), choice: Backend) -> Result<Picture, RenderError> {
-    check_size(size_px)?;
-    draw_with(choice, |engine| compose(scene, size_px, engine))
-}
-
 /// A box on the page: left, top, width, height, px.
 type Place = [u32; 4];
 
-fn compose(scene: &Scene, size_px: (u32, u32), engine: &Engine) -> Result<Picture, RenderError> {
+/// The whole cell, and beside it the part as seen through the arm, with one legend for both.
+pub(crate) fn compose(
+    scene: &Scene,
+    size_px: (u32, u32),
+    engine: &Engine,
+) -> Result<Picture, RenderError> {
     let pen = Pen::new()?;
     let (width, height) = size_px;
     let u = unit(size_px);

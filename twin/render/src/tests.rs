@@ -10,14 +10,28 @@ use crate::view::Margins;
 use image::{Rgba, RgbaImage};
 use sim::pose::{Point, Pose, Vector};
 use sim::scene::solid::HitId;
-use sim::scene::{BedShape, Body, BodyKind, ColourScale, Mark, MarkSeverity, Shape, StrandShape};
+use sim::scene::{
+    BedShape, Body, BodyKind, ColourScale, Mark, MarkSeverity, Scene, Shape, StrandShape,
+};
+
+fn draw(task: Task, backend: Backend) -> Result<Picture, RenderError> {
+    Studio::new(backend, None).draw(&task)
+}
+
+fn picture(scene: &Scene, view: &View, backend: Backend) -> Result<Picture, RenderError> {
+    draw(Task::View { scene: Box::new(scene.clone()), view: view.clone() }, backend)
+}
+
+fn sheet(scene: &Scene, size_px: (u32, u32), backend: Backend) -> Result<Picture, RenderError> {
+    draw(Task::Sheet { scene: Box::new(scene.clone()), size_px }, backend)
+}
 
 fn body(kind: BodyKind, shape: Shape) -> Body {
     Body { name: format!("{kind:?}"), kind, pose: Pose::identity(), shape, highlighted: false }
 }
 
 /// One of each shape, a bed, an obstacle and a spiral.
-fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let p = Point::new;
     let spiral = |i: i32| {
         let a = 0.2 * f64::from(i);

@@ -77,6 +77,19 @@ pub(crate) struct Margins {
 }
 
 impl Camera {
+    /// What a picture says of where it is seen from.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Camera::Isometric => "isometric".to_owned(),
+            Camera::Front => "front, along +y".to_owned(),
+            Camera::Side => "side, along -x".to_owned(),
+            Camera::Top => "top, along -z".to_owned(),
+            Camera::Orbit { azimuth_deg, elevation_deg } => {
+                format!("from azimuth {azimuth_deg:.0}°, elevation {elevation_deg:.0}°")
+            }
+        }
+    }
+
     /// Unit vectors right, up and away from the eye.
     pub fn axes(&self) -> [Vector; 3] {
         let (azimuth_deg, elevation_deg) = match *self {

@@ -9,6 +9,8 @@ use sim::process::feed::sphere_diameter_m;
 use crate::fill::number;
 use crate::results::Ageing;
 
+/// Ages are told until this many times the set time.
+const SET_TIMES: f64 = 3.0;
 /// Points told of a centreline.
 const POINTS: usize = 65;
 
@@ -32,7 +34,7 @@ pub(crate) fn blobs_m(result: &StrandResult) -> [Option<f64>; 3] {
 
 /// A section against its age.
 pub(crate) fn ageing(job: &Job, result: &StrandResult) -> Ageing {
-    let told = film::ageing(job, result);
+    let told = film::ageing(job, result, SET_TIMES);
     let numbers = |column: &[f64]| column.iter().map(|&value| number(value)).collect();
     Ageing {
         temperature_k: numbers(&told.temperature_k),

@@ -27,6 +27,10 @@ fn bar(length_m: f64, height_m: f64, value: f64) -> Scene {
     }
 }
 
+fn row(row: &Row, size_px: (u32, u32), backend: Backend) -> Result<Picture, RenderError> {
+    draw(Task::Row { row: Box::new(row.clone()), size_px }, backend)
+}
+
 fn page(scenes: Vec<Scene>) -> Row {
     let notes = vec!["thin lines: as planned".into(), "word ".repeat(40)];
     Row { title: "A row".into(), scenes, notes, stamp: Some("illustration".into()) }

@@ -22,13 +22,13 @@ pub struct Ageing {
     pub modulus_pa: Vec<f64>,
 }
 
-/// A section against its age, crowded while it is young, until three times its set time.
-pub fn ageing(job: &Job, result: &StrandResult) -> Ageing {
+/// A section against its age, crowded while it is young, until `set_times` times its set time (and an hour at most).
+pub fn ageing(job: &Job, result: &StrandResult, set_times: f64) -> Ageing {
     let (input, material) = (&result.input, &job.material);
     let history = History::new(input, material);
     let cure = result.lit.as_ref().and_then(|lit| lit.cure.as_ref());
     let set_s = result.outcome.set_time_s.nominal;
-    let last_s = if set_s.is_finite() { (3.0 * set_s).clamp(1.0, 3600.0) } else { 60.0 };
+    let last_s = if set_s.is_finite() { (set_times * set_s).clamp(1.0, 3600.0) } else { 60.0 };
     let age = |k: usize| last_s * (k as f64 / (AGES - 1) as f64).powi(2);
     let age_s: Vec<f64> = (0..AGES).map(age).collect();
     let told = |value: &dyn Fn(f64) -> f64| age_s.iter().map(|&a| value(a)).collect();

@@ -1,8 +1,8 @@
 //! One instant of a film as a scene that can be drawn.
 
-use super::{Film, FilmStrand, Frame, Quantity};
+use super::{Film, FilmFinding, FilmStrand, Frame, Quantity};
 use crate::pose::{Point, Pose};
-use crate::scene::{BedShape, Body, Bounds, Mark, Scene, StrandShape};
+use crate::scene::{BedShape, Body, Bounds, Mark, MarkSeverity, Scene, StrandShape};
 
 /// Findings marked in a picture; more would hide the part.
 const MARKS_MAX: usize = 6;
@@ -35,7 +35,9 @@ impl Film {
         let mut strands = Vec::new();
         let mut planned = Vec::new();
         for (order, strand) in self.strands.iter().enumerate() {
-            let highlighted = finding.is_some_and(|finding| finding.strand == Some(order));
+            let highlighted = finding.is_some_and(|finding| {
+                finding.strand == Some(order) || finding.bodies.contains(&strand.id)
+            });
             let seen =
                 SeenStrand { strand, order, time_s: frame.time_s, world_from_part, highlighted };
             seen.printed(painted.map(|p| (p.quantity, p.scale.high - p.scale.low)), &mut strands);
@@ -44,15 +46,7 @@ impl Film {
             }
         }
         let marks = match finding {
-            Some(finding) => finding
-                .at
-                .map(|at| Mark {
-                    at: world_from_part * at,
-                    label: format!("{} {}", finding.code, finding.words),
-                    severity: finding.severity,
-                })
-                .into_iter()
-                .collect(),
+            Some(finding) => self.marks_of(finding, frame),
             None if look.marks => self.marks(frame),
             None => Vec::new(),
         };
@@ -93,6 +87,24 @@ impl Film {
         let bounds = Bounds::of(points.map(|point| world_from_part * point))?;
         let skin = crate::pose::Vector::repeat(skin);
         Some(Bounds { min: bounds.min - skin, max: bounds.max + skin })
+    }
+
+    /// The place with its numbers, and the name of an earlier strand where that is one of the two bodies.
+    fn marks_of(&self, finding: &FilmFinding, frame: &Frame) -> Vec<Mark> {
+        let Some(at) = finding.at else { return Vec::new() };
+        let world_from_part = frame.world_from_mover[self.part];
+        let label = format!("{} {}", finding.code, finding.words);
+        let place = Mark { at: world_from_part * at, label, severity: finding.severity };
+        let others = self.strands.iter().enumerate().filter(|(order, strand)| {
+            finding.strand != Some(*order) && finding.bodies.contains(&strand.id)
+        });
+        let named = others.filter_map(|(_, strand)| {
+            let off = |point: &&Point| (*point - at).norm();
+            let near = strand.points.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            let (at, label) = (world_from_part * near, strand.id.clone());
+            Some(Mark { at, label, severity: MarkSeverity::Note })
+        });
+        std::iter::once(place).chain(named).collect()
     }
 
     /// One of each code says more than six of the first.

@@ -9,6 +9,8 @@ use crate::preflight::{Preflight, StrandResult};
 
 /// Straight pieces are cut so that speed and bead show along them; all cuts of a film together number at most this.
 const CUTS_MAX: usize = 24_000;
+/// Ages are told until this many times the set time: beyond it a strand is nearly as cold as the air.
+const COLD_SET_TIMES: f64 = 40.0;
 /// Pieces of one straight stretch.
 const PIECES: usize = 16;
 
@@ -116,7 +118,7 @@ pub(super) fn strands(preflight: &Preflight) -> Vec<FilmStrand> {
             clearance_m: clearances[printed.strand],
             displacement_m: moved[order],
             utilisation: used[printed.strand],
-            ageing: ageing(preflight.job(), result),
+            ageing: ageing(preflight.job(), result, COLD_SET_TIMES),
         }
     })
     .collect()
