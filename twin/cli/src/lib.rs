@@ -169,3 +169,28 @@ fn usage(error: &clap::Error, screen: &mut Screen<'_>) -> u8 {
     };
     if answer { FEASIBLE } else { REFUSED }
 }
+
+/// A job with everything it names from the program's own library, checked as `twin check` does: for tests that look at more
+/// than files.
+///
+/// # Errors
+/// What is wrong with the job, in sentences.
+pub fn checked(job: &std::path::Path) -> Result<sim::preflight::Preflight, String> {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut screen = Screen {
+        out: &mut out,
+        err: &mut err,
+        out_is_terminal: false,
+        err_is_terminal: false,
+        colour_asked: false,
+        drawer: None,
+    };
+    let told = |failure| match failure {
+        Failure::Refused(refusal) => refusal.sentences(),
+        Failure::Output(error) => error.to_string(),
+    };
+    let library = library::Library::open(&library::LibraryArgs::default())
+        .map_err(|refusal| refusal.sentences())?;
+    let loaded = load::job(job, &library, &mut screen).map_err(told)?;
+    sim::preflight::preflight(loaded.job, |_| {}).map_err(|error| error.to_string())
+}

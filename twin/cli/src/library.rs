@@ -14,7 +14,7 @@ static ROBOTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../robots");
 static MATERIALS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../materials");
 
 /// Where the library is, beside the folders in the program.
-#[derive(Debug, Clone, clap::Args)]
+#[derive(Debug, Clone, Default, clap::Args)]
 pub(crate) struct LibraryArgs {
     /// Folder with robots/ and materials/ that is looked into first (also: TWIN_LIBRARY)
     #[arg(long, value_name = "DIR")]

@@ -89,7 +89,7 @@ impl Studio {
 }
 
 /// The machine that is asked for; rays where any will do and no card opens.
-fn open(backend: Backend) -> Result<Engine, RenderError> {
+pub(crate) fn open(backend: Backend) -> Result<Engine, RenderError> {
     let by_card = || gpu::guarded(|| Ok(Engine::Gpu(Box::new(gpu::Gpu::open()?))));
     match backend {
         Backend::Cpu => Ok(Engine::Cpu { because: None }),
