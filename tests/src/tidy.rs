@@ -20,7 +20,7 @@ const MAY_USE: [(&str, &[&str]); 24] = [
     ("structure", &["interval", "pose"]),
     ("validation", &["structure", "process", "interval", "pose"]),
     ("finding", &["interval", "pose"]),
-    ("cell", &["dynamics", "kinematics", "process", "shape", "interval", "pose"]),
+    ("cell", &["finding", "dynamics", "kinematics", "process", "shape", "interval", "pose"]),
     ("toolpath", &["cell", "parry", "pose"]),
     (
         "motion",

@@ -38,6 +38,7 @@ pub(crate) fn document(
         sequence: None,
         loads: Vec::new(),
         limits: Limits::default(),
+        allow: Vec::new(),
     }
 }
 

@@ -97,6 +97,7 @@ impl Fill<'_> {
             limit: number(finding.limit),
             unit: finding.unit.to_owned(),
             count: finding.count,
+            allowed: None,
         }
     }
 

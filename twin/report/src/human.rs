@@ -1,8 +1,9 @@
 //! The report for a terminal.
 
 use crate::frame::{LoadCase, YieldCriterion};
-use crate::parts::{Finding, Phase, Report, Severity, Verdict};
-use crate::quantity::{Unit, against, clock, counted, digits};
+use crate::line::{allowed_words, one_line};
+use crate::parts::{Finding, Report, Severity, Verdict};
+use crate::quantity::{Unit, clock, counted, digits, found};
 use crate::results::{Range, Strand};
 use crate::screen::{Paint, Screen};
 
@@ -47,17 +48,14 @@ fn verdict(report: &Report, screen: &mut Screen) {
         "{word}  score {} of 100  ({})  {}",
         score(report.score),
         families.join(", "),
-        report.name
+        one_line(&report.name, 200)
     ));
 }
 
 fn findings(report: &Report, severity: Severity, screen: &mut Screen) {
     let all: Vec<&Finding> =
         report.findings.iter().filter(|finding| finding.severity == severity).collect();
-    let word = match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
+    let word = severity.word();
     for finding in all.iter().take(FINDINGS_MAX) {
         screen.line("");
         one(report, finding, word, screen);
@@ -78,18 +76,17 @@ fn one(report: &Report, finding: &Finding, word: &str, screen: &mut Screen) {
     if !place.is_empty() {
         screen.labelled("where", &place);
     }
-    let times =
-        if finding.count > 1 { format!("; worst of {}", finding.count) } else { String::new() };
-    match against(finding) {
-        Some(against) => screen.labelled("found", &format!("{against}{times}")),
-        None if finding.count > 1 => screen.labelled("found", &format!("{} times", finding.count)),
-        None => {}
+    if let Some(found) = found(finding) {
+        screen.labelled("found", &found);
     }
     screen.labelled("hint", &finding.hint);
+    if let Some(allowed) = &finding.allowed {
+        screen.labelled("", &allowed_words(allowed));
+    }
 }
 
 /// Strand, place on it, phase, line of the job, time.
-fn place(report: &Report, finding: &Finding) -> String {
+pub(crate) fn place(report: &Report, finding: &Finding) -> String {
     let site = &finding.site;
     let mut parts = Vec::new();
     parts.extend(site.strand.as_ref().map(|strand| format!("strand {strand}")));
@@ -97,7 +94,7 @@ fn place(report: &Report, finding: &Finding) -> String {
     parts.extend(site.stage.map(|stage| format!("after {}", counted(stage, "strand"))));
     parts.extend(site.node.map(|node| format!("node {node}")));
     parts.extend(site.member.map(|member| format!("member {member}")));
-    parts.extend(site.phase.map(|phase| phase_word(phase).to_owned()));
+    parts.extend(site.phase.map(|phase| phase.word().to_owned()));
     parts.extend(finding.time_s.map(|time_s| clock(Some(time_s))));
     let job = report.provenance.inputs.iter().find(|input| input.what == "job");
     parts.extend(finding.line.map(|line| match job {
@@ -105,16 +102,6 @@ fn place(report: &Report, finding: &Finding) -> String {
         None => format!("line {line}"),
     }));
     parts.join(", ")
-}
-
-fn phase_word(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Approach => "approach",
-        Phase::Print => "print",
-        Phase::Dwell => "dwell",
-        Phase::Retract => "retract",
-        Phase::Transit => "transit",
-    }
 }
 
 /// The worst strand of each kind.
@@ -150,7 +137,7 @@ fn strands(report: &Report, screen: &mut Screen) {
             } else {
                 ""
             };
-            screen.line(&format!("  {name:<18} {value:<28} {}{order}", strand.id));
+            screen.line(&format!("  {name:<18} {value:<28} {}{order}", one_line(&strand.id, 80)));
         }
     }
 }
@@ -186,7 +173,7 @@ fn frame(report: &Report, screen: &mut Screen) {
             Some(fault) => format!("not solved: {fault}"),
             None => format!("bends {}{yields}{buckles}", Unit::Millimetre.show(load.deflection_m)),
         };
-        screen.line(&format!("load       {}: {value}", load.name));
+        screen.line(&format!("load       {}: {value}", one_line(&load.name, 80)));
     }
     if let Some(nearest) = &report.motion.smallest_clearance {
         let [a, b] = &nearest.bodies;

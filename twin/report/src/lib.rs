@@ -1,17 +1,23 @@
-//! What the twin found, as JSON for programs, as text for a terminal and as a page of plots.
+//! What the twin found, as JSON for programs, as text for a terminal, as a page of plots and in the formats of others.
 //!
 //! [`Report::new`] takes everything it says from a [`sim::preflight::Preflight`]; hashes, times and
 //! the name of who drew the pictures come from the caller. Nothing here computes a result.
 //! `report.json` is in SI; mm, degrees and percent are on screens alone. The same input gives the
 //! same bytes but for `provenance` and `timing`.
 
+mod allow;
+mod compare;
 mod fill;
+mod formats;
 mod frame;
 mod human;
+mod line;
+mod metrics;
 mod parts;
 mod plots;
 mod program;
 mod quantity;
+mod read;
 mod results;
 #[cfg(test)]
 mod sample;
@@ -20,16 +26,22 @@ mod strands;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_allow;
+#[cfg(test)]
 mod tests_human;
 
+pub use allow::{apply_allowances, fails};
+pub use compare::{Baseline, Both, Change, Diff, Side, diff};
+pub use formats::{concise, github, gitlab, junit, markdown, sarif, step_summary};
 pub use frame::{Landing, LoadCase, Remedy, Stage, Yield, YieldCriterion};
 pub use human::human;
 pub use parts::{
-    Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site, StepTime,
-    Timing, Totals, Verdict,
+    Allowed, Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site,
+    StepTime, Timing, Totals, Verdict,
 };
 pub use plots::strands_page;
 pub use program::{Budget, Cycle, Hose, Payload, Share, TcpSpeed, Tracking};
+pub use read::{MAX_BYTES, ReadError, from_json};
 pub use results::{Coverage, Ends, Motion, Nearest, Range, Strand, StrandMotion, WorstAt};
 
 /// Value of `schema` in every report this version writes.

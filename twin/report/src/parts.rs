@@ -106,6 +106,18 @@ pub struct Finding {
     pub unit: String,
     /// How many places it stands for; the worst is told.
     pub count: usize,
+    /// Why it is let pass for a while; null: it is not.
+    pub allowed: Option<Allowed>,
+}
+
+/// Why a finding is let pass, by the job's `allow`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Allowed {
+    /// The author's words.
+    pub reason: String,
+    /// Last day on which it is, `YYYY-MM-DD`.
+    pub until: String,
 }
 
 /// How bad a finding is.
@@ -116,6 +128,16 @@ pub enum Severity {
     Error,
     /// The low or high end is, or a warning limit is passed.
     Warning,
+}
+
+impl Severity {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+        }
+    }
 }
 
 /// Where a finding is; null where it is about no such thing.
@@ -152,6 +174,19 @@ pub enum Phase {
     Retract,
     /// Between strands.
     Transit,
+}
+
+impl Phase {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Approach => "approach",
+            Self::Print => "print",
+            Self::Dwell => "dwell",
+            Self::Retract => "retract",
+            Self::Transit => "transit",
+        }
+    }
 }
 
 /// Sums over the whole program.

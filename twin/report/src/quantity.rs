@@ -10,14 +10,20 @@ use crate::results::Range;
 pub(crate) enum Unit {
     /// Given in m.
     Millimetre,
+    /// Given in m.
+    Metre,
     /// Given in rad.
     Degree,
     /// Given as a share.
     Percent,
     /// Given in kg.
     Kilogram,
+    /// Given in kg.
+    Gram,
     /// Given in s.
     Second,
+    /// Given in N.
+    Newton,
     /// A ratio.
     Plain,
 }
@@ -31,16 +37,17 @@ impl Unit {
             (_, "rad") => Self::Degree,
             (_, "kg") => Self::Kilogram,
             (_, "s") => Self::Second,
+            (_, "N") => Self::Newton,
             _ => Self::Plain,
         }
     }
 
     fn scale(self) -> f64 {
         match self {
-            Self::Millimetre => 1e3,
+            Self::Millimetre | Self::Gram => 1e3,
             Self::Degree => 180.0 / std::f64::consts::PI,
             Self::Percent => 1e2,
-            Self::Kilogram | Self::Second | Self::Plain => 1.0,
+            Self::Metre | Self::Kilogram | Self::Second | Self::Newton | Self::Plain => 1.0,
         }
     }
 
@@ -49,8 +56,11 @@ impl Unit {
             Self::Millimetre => " mm",
             Self::Degree => "°",
             Self::Percent => " %",
+            Self::Metre => " m",
             Self::Kilogram => " kg",
+            Self::Gram => " g",
             Self::Second => " s",
+            Self::Newton => " N",
             Self::Plain => "",
         }
     }
@@ -105,6 +115,16 @@ pub(crate) fn clock(time_s: Option<f64>) -> String {
     let Some(time_s) = time_s else { return "?".to_owned() };
     let whole = time_s.round().max(0.0) as u64;
     format!("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+}
+
+/// What was found, in numbers: [`against`] and how many places it stands for.
+pub(crate) fn found(finding: &Finding) -> Option<String> {
+    match (against(finding), finding.count) {
+        (Some(against), 0 | 1) => Some(against),
+        (Some(against), count) => Some(format!("{against}; worst of {count}")),
+        (None, 0 | 1) => None,
+        (None, count) => Some(format!("{count} times")),
+    }
 }
 
 /// What was measured and what it was held against; `None` for things that must not happen.

@@ -106,6 +106,7 @@ pub(crate) fn too_near() -> Finding {
         limit: Some(0.001),
         unit: "m".to_owned(),
         count: 12,
+        allowed: None,
     }
 }
 
@@ -126,6 +127,7 @@ pub(crate) fn near_stop() -> Finding {
         limit: Some(3.0_f64.to_radians()),
         unit: "rad".to_owned(),
         count: 1,
+        allowed: None,
     }
 }
 

@@ -1,5 +1,7 @@
 //! Colour and line breaks of a terminal.
 
+use crate::line::one_line;
+
 /// How a word is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Paint {
@@ -24,6 +26,8 @@ pub(crate) struct Screen {
 
 /// Narrower than this nothing is broken any more, it would not help.
 const NARROWEST: usize = 40;
+/// Longest text beside a label, characters.
+const LONGEST: usize = 4000;
 
 impl Screen {
     pub(crate) fn new(color: bool, width: usize) -> Self {
@@ -58,7 +62,7 @@ impl Screen {
         const LABEL: usize = 7;
         let label = self.paint(Paint::Dim, &format!("{label:<LABEL$}"));
         let mut first = true;
-        for row in wrap(text, self.width - INDENT - LABEL) {
+        for row in wrap(&one_line(text, LONGEST), self.width - INDENT - LABEL) {
             let before = if first { label.clone() } else { " ".repeat(LABEL) };
             first = false;
             self.line(&format!("{:INDENT$}{before}{row}", ""));

@@ -33,6 +33,8 @@ pub struct Document {
     pub loads: Vec<LoadCase>,
     /// Limits of acceptance that differ from the cell's.
     pub limits: Limits,
+    /// Findings that are known and let pass for a while.
+    pub allow: Vec<Allowance>,
 }
 
 /// A pose in file units: offset in mm, fixed-axes x, y, z rotation in degrees as in URDF.
@@ -376,4 +378,17 @@ pub struct Limits {
     pub speed_band_percent: Option<Spanned<f64>>,
     /// Longest the program may take, s.
     pub cycle_time_s: Option<Spanned<f64>>,
+}
+
+/// A kind of finding that is let pass until a day, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Allowance {
+    /// The finding's code; which codes there are is known in `sim`.
+    pub code: Spanned<String>,
+    /// The strand it must be on; `None`: any place.
+    pub strand: Option<Spanned<String>>,
+    /// Why it is let pass.
+    pub reason: Spanned<String>,
+    /// Last day on which it is, `YYYY-MM-DD`.
+    pub until: Spanned<String>,
 }

@@ -15,6 +15,7 @@ mod tests;
 #[cfg(test)]
 mod tests_round_trip;
 
+pub use hints::nearest;
 pub use print::print;
 
 use crate::{Diagnostic, Document, Source};

@@ -13,6 +13,7 @@
 //! opens a file: text comes in, values and [`diagnostic::Diagnostic`]s go out. No input panics.
 
 pub mod cell_file;
+mod date;
 pub mod diagnostic;
 pub mod document;
 pub mod frame_file;
@@ -25,5 +26,6 @@ pub mod schema;
 pub mod tool_file;
 pub mod urdf;
 
+pub use date::is_date;
 pub use diagnostic::{Diagnostic, Severity, Source, Span, Spanned};
 pub use document::Document;

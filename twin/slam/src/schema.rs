@@ -58,6 +58,8 @@ pub enum Kind {
     Integer(Range),
     /// A text that is not empty.
     Text,
+    /// A day of the calendar, `YYYY-MM-DD`.
+    Date,
     /// One of these words.
     Choice(&'static [&'static str]),
     /// Some of these letters, in this order, each at most once.
@@ -167,6 +169,9 @@ fn kind_schema(kind: Kind) -> Value {
         Kind::Number(range) => number_schema("number", range),
         Kind::Integer(range) => number_schema("integer", range),
         Kind::Text => json!({ "type": "string", "minLength": 1 }),
+        Kind::Date => json!({
+            "type": "string", "format": "date", "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$",
+        }),
         Kind::Choice(words) => json!({ "type": "string", "enum": words }),
         Kind::Letters(letters) => {
             let pattern: String = letters.chars().map(|letter| format!("{letter}?")).collect();

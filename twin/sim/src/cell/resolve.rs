@@ -19,6 +19,7 @@ use super::job::{
 };
 use super::machine::Cell;
 use super::{machine_from_files, material_from_file};
+use crate::finding::Code;
 use crate::interval::Interval;
 use crate::kinematics::{ChainJoint, JointKind};
 use crate::pose::{self, Point, Pose, Vector};
@@ -59,6 +60,7 @@ pub fn resolve(document: &Document, parts: &Parts<'_>) -> Result<Job, Vec<Diagno
         document.strands.iter().map(|strand| resolver.strand(strand)).collect();
     let steps = resolver.steps();
     let limits = resolver.limits();
+    resolver.allowed_codes();
     let problems = resolver.problems;
     if !problems.is_empty() {
         return Err(problems);
@@ -383,6 +385,23 @@ impl Resolver<'_> {
             });
         }
         steps
+    }
+
+    /// Codes that are let pass must be codes, letter by letter.
+    fn allowed_codes(&mut self) {
+        for allowance in &self.document.allow {
+            let (name, known) = (allowance.code.value.as_str(), Code::ALL.map(Code::as_str));
+            if known.contains(&name) {
+                continue;
+            }
+            let hint = match slam::job::nearest(name, known.into_iter()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "`twin explain` lists all codes".to_owned(),
+            };
+            let shown: String = name.chars().take(60).collect();
+            let message = format!("there is no code {shown:?}");
+            self.error(allowance.code.span, message, &hint);
+        }
     }
 
     fn limits(&self) -> Limits {

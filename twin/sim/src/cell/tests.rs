@@ -30,6 +30,31 @@ fn joint_rows_of_another_length_are_refused() {
 }
 
 #[test]
+fn only_codes_can_be_allowed() {
+    let allow = |code: &str| {
+        format!(
+            "\"allow\": [{{ \"code\": \"{code}\", \"reason\": \"r\", \"until\": \"2027-01-31\" }}],"
+        )
+    };
+    assert_eq!(
+        try_job(&text("kr10-cone", &allow("P301"), &strand("a", &FLAT, "")), &[]).is_ok(),
+        true
+    );
+    for (code, hint) in [
+        ("C210", "did you mean `C201`?"),
+        ("p301", "did you mean `P301`?"),
+        ("collision", "`twin explain` lists"),
+    ] {
+        let (message, at) = refusal("kr10-cone", &allow(code), "");
+        assert_eq!(message, format!("there is no code \"{code}\""));
+        assert_eq!(at, format!("\"{code}\""));
+        let text = text("kr10-cone", &allow(code), &strand("a", &FLAT, ""));
+        let problems = try_job(&text, &[]).expect_err("no code");
+        assert!(problems[0].hints[0].contains(hint), "{problems:?}");
+    }
+}
+
+#[test]
 fn outputs_and_flow_levels_that_the_cell_lacks_are_refused() {
     let event = |set: &str| {
         format!(", \"events\": [{{ \"at_mm\": 1, \"set\": \"{set}\", \"to\": \"on\" }}]")

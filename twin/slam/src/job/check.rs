@@ -8,6 +8,7 @@ use jsonc_parser::ast::{Object, Value};
 use super::hints;
 use super::problems::Problems;
 use super::syntax::span_of;
+use crate::date::is_date;
 use crate::diagnostic::quoted;
 use crate::schema::keys::JOB;
 use crate::schema::{Kind, Range, Rule, Table};
@@ -181,6 +182,7 @@ fn check_text(text: &str, span: Span, kind: Kind, label: Label<'_>, problems: &m
             problems.error(span, format!("{label} is empty"))
         }
         Kind::Text | Kind::TextOr(_) => {}
+        Kind::Date if is_date(text) => {}
         Kind::Choice(words) if words.contains(&text) => {}
         Kind::Choice(words) => {
             let message = format!("{label} is {shown}; it must be one of {}", words.join(", "));
@@ -224,6 +226,7 @@ fn expected(kind: Kind) -> String {
         Kind::Number(_) => "a number".to_owned(),
         Kind::Integer(_) => "a whole number".to_owned(),
         Kind::Text | Kind::Letters(_) => "a text".to_owned(),
+        Kind::Date => "a day of the calendar, as 2027-01-31".to_owned(),
         Kind::Choice(words) => format!("one of {}", words.join(", ")),
         Kind::Triple(_) => "a list of three numbers".to_owned(),
         Kind::List(..) => "a list".to_owned(),

@@ -25,6 +25,7 @@ pub(super) fn document(root: &Object<'_>) -> Document {
             .map(|list| list.elements.iter().filter_map(step).collect()),
         loads: objects(root, "loads").map(load_case).collect(),
         limits: root.get_object("limits").map(limits).unwrap_or_default(),
+        allow: objects(root, "allow").map(allowance).collect(),
     }
 }
 
@@ -210,6 +211,15 @@ fn limits(object: &Object<'_>) -> Limits {
         load_factor: number(object, "load_factor"),
         speed_band_percent: number(object, "speed_band_percent"),
         cycle_time_s: number(object, "cycle_time_s"),
+    }
+}
+
+fn allowance(object: &Object<'_>) -> Allowance {
+    Allowance {
+        code: text(object, "code").unwrap_or_default(),
+        strand: text(object, "strand"),
+        reason: text(object, "reason").unwrap_or_default(),
+        until: text(object, "until").unwrap_or_default(),
     }
 }
 

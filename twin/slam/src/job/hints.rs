@@ -5,10 +5,7 @@ use crate::schema::Table;
 use crate::schema::keys::{NAMED_OBJECTS, SUFFIXES};
 
 /// The candidate nearest to a misspelt name, if near enough.
-pub(super) fn nearest<'a>(
-    name: &str,
-    candidates: impl Iterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > 80 {
         return None; // no typing error of a name of ours, and the distance costs its square
     }

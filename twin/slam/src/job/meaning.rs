@@ -29,6 +29,7 @@ pub(super) fn check(document: &Document, problems: &mut Problems) {
     // an id that could not be read would make true references look wrong
     if !ids.contains("") {
         references(document, &ids, problems);
+        allowances(document, &ids, problems);
         sequence(document, &ids, problems);
     }
 }
@@ -108,6 +109,22 @@ fn references(document: &Document, ids: &Ids<'_>, problems: &mut Problems) {
                 form.id.span,
                 format!("no strand is printed on the form {}", quoted(&form.id.value)),
             );
+        }
+    }
+}
+
+fn allowances(document: &Document, ids: &Ids<'_>, problems: &mut Problems) {
+    for allowance in &document.allow {
+        let reason = &allowance.reason;
+        if !reason.value.is_empty() && reason.value.trim().is_empty() {
+            let hint = "say why the finding may stand, for those who read the report";
+            problems.add(Diagnostic::error(reason.span, "reason is blank").hint(hint));
+        }
+        if let Some(strand) = &allowance.strand
+            && !ids.strands.contains(strand.value.as_str())
+        {
+            let known = ids.strands.iter().copied();
+            problems.add(unknown(strand.span, "strand", &strand.value, known));
         }
     }
 }

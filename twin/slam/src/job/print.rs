@@ -28,6 +28,9 @@ pub fn print(document: &Document) -> String {
         fields.push(field("loads", lines(document.loads.iter().map(load_case), 1)));
     }
     fields.extend(placed("limits", inline(limits(&document.limits))));
+    if !document.allow.is_empty() {
+        fields.push(field("allow", lines(document.allow.iter().map(allowance), 1)));
+    }
     format!("{{\n  {}\n}}\n", fields.join(",\n  "))
 }
 
@@ -231,6 +234,14 @@ fn limits(limits: &Limits) -> Vec<String> {
         ("speed_band_percent", limits.speed_band_percent),
         ("cycle_time_s", limits.cycle_time_s),
     ])
+}
+
+fn allowance(allowance: &Allowance) -> String {
+    let mut fields = vec![field("code", string(&allowance.code.value))];
+    fields.extend(allowance.strand.as_ref().map(|strand| field("strand", string(&strand.value))));
+    fields.push(field("reason", string(&allowance.reason.value)));
+    fields.push(field("until", string(&allowance.until.value)));
+    inline(fields)
 }
 
 fn field(name: &str, value: String) -> String {

@@ -36,6 +36,7 @@ pub(super) const EXAMPLE: &str = r#"{
   "sequence": [{ "move": { "joints": [[0, 0, 0, 90, 0, 60, 0]] } }, "helix", { "wait_s": 60 }, "b", { "release": "mould" }, { "checkpoint": "a" }],
   "loads": [{ "name": "test", "supports": [{ "at_mm": [0, 0, 0], "fix": "xyz" }], "forces": [{ "at_mm": [75, 0, 30], "force_n": [0, 0, -100] }] }],
   "limits": { "clearance_mm": 1.0, "node_miss_mm": 1.0, "sag_mm": 2, "deflection_mm": 5, "speed_band_percent": 5, "cycle_time_s": 600 },
+  "allow": [{ "code": "C201", "strand": "b", "reason": "seen on the machine", "until": "2027-01-31" }],
 }
 "#;
 
@@ -263,6 +264,32 @@ fn sequence_names_every_strand_once() {
     expect(&reserved, &["4:8: |meaning of its own"]);
     let unused = job("\"one\", \"two\"").replace(" \"on\": \"f\",", "");
     expect(&unused, &["2:18: warning: |no strand is printed on the form \"f\""]);
+}
+
+#[test]
+fn an_allowance_has_a_reason_and_a_day() {
+    let job = |allow: &str| strand("").replacen(HEAD, &format!("{HEAD}\"allow\": [{allow}],\n"), 1);
+    let whole =
+        "{\"code\": \"C201\", \"strand\": \"a\", \"reason\": \"known\", \"until\": \"2027-01-31\"}";
+    expect(&job(whole), &[]);
+    expect(&job(&whole.replace(" \"strand\": \"a\",", "")), &[]);
+    for (part, instead, expected) in [
+        (", \"until\": \"2027-01-31\"", "", "2:11: |an allowance lacks the key \"until\""),
+        (", \"reason\": \"known\"", "", "an allowance lacks the key \"reason\""),
+        ("\"code\": \"C201\", ", "", "an allowance lacks the key \"code\""),
+        ("known", "", "reason is empty"),
+        ("known", " \\t", "2:53: |reason is blank|say why"),
+        ("01-31", "02-29", "2:71: |until is \"2027-02-29\"|a day of the calendar, as 2027-01-31"),
+        ("\"2027-01-31\"", "20270131", "until is a number|a day of the calendar"),
+        ("\"a\"", "\"aa\"", "2:38: |there is no strand \"aa\"|did you mean \"a\""),
+        ("reason", "reasons", "unknown key \"reasons\"|did you mean \"reason\""),
+    ] {
+        let found = shown(&job(&whole.replace(part, instead)));
+        assert!(
+            found.iter().any(|one| expected.split('|').all(|part| one.contains(part))),
+            "{instead}: {found:#?}"
+        );
+    }
 }
 
 #[test]

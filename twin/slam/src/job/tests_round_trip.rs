@@ -163,10 +163,24 @@ fn load() -> impl Strategy<Value = LoadCase> {
     })
 }
 
+fn allowance() -> impl Strategy<Value = Allowance> {
+    let reason = text().prop_filter("says something", |reason| !reason.value.trim().is_empty());
+    let day = (2000..2100_u32, 1..=12_u32, 1..=28_u32)
+        .prop_map(|(year, month, day)| placed(format!("{year}-{month:02}-{day:02}")));
+    (text(), any::<bool>(), reason, day).prop_map(|(code, on_strand, reason, until)| Allowance {
+        code,
+        strand: on_strand.then(|| placed("s\"\\0".to_owned())),
+        reason,
+        until,
+    })
+}
+
 fn document() -> impl Strategy<Value = Document> {
     let head = (text(), text(), option::of(triple()), vec(positive(), 8));
-    let parts = (vec(strand(), 1..5), process(), vec(load(), 0..3), any::<bool>());
-    (head, parts).prop_map(|((name, cell, xyz_mm, n), (mut strands, process, loads, ordered))| {
+    let lists = (vec(load(), 0..3), vec(allowance(), 0..3));
+    let parts = (vec(strand(), 1..5), process(), lists, any::<bool>());
+    (head, parts).prop_map(|((name, cell, xyz_mm, n), (mut strands, process, lists, ordered))| {
+        let (loads, allow) = lists;
         for (index, strand) in strands.iter_mut().enumerate() {
             strand.id = placed(format!("s\"\\{index}"));
         }
@@ -207,6 +221,7 @@ fn document() -> impl Strategy<Value = Document> {
                 speed_band_percent: n[6],
                 cycle_time_s: n[7],
             },
+            allow,
         }
     })
 }

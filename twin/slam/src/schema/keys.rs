@@ -62,6 +62,13 @@ const JOB_KEYS: &[Key] = &[
     optional("sequence", Kind::List(&Kind::TextOr(&STEP), 0), "", "strands as listed", "Order."),
     optional("loads", Kind::List(&Kind::Object(&LOAD), 0), "", "none", "Load cases of the part."),
     optional("limits", Kind::Object(&LIMITS), "", "the cell's", "Limits of acceptance."),
+    optional(
+        "allow",
+        Kind::List(&Kind::Object(&ALLOWANCE), 0),
+        "",
+        "none",
+        "Findings that do not make the check fail, though verdict and score count them.",
+    ),
 ];
 
 const PLACEMENT: Table = table("a placement", &[POSE_KEYS], Rule::Free);
@@ -399,6 +406,17 @@ const LIMITS: Table = table(
     Rule::Free,
 );
 
+const ALLOWANCE: Table = table(
+    "an allowance",
+    &[&[
+        required("code", Kind::Text, "", "Code of the finding, such as C201."),
+        optional("strand", Kind::Text, "", "any place", "Id of the strand it must be on."),
+        required("reason", Kind::Text, "", "Why it is let pass."),
+        required("until", Kind::Date, "", "Last day it is let pass, as 2027-01-31."),
+    ]],
+    Rule::Free,
+);
+
 /// Objects below the top one, to tell an author where a key belongs.
 pub(crate) static NAMED_OBJECTS: &[(&str, &Table)] = &[
     ("placement", &PLACEMENT),
@@ -413,6 +431,7 @@ pub(crate) static NAMED_OBJECTS: &[(&str, &Table)] = &[
     ("profile", &PROFILE),
     ("loads", &LOAD),
     ("forms", &FORM),
+    ("allow", &ALLOWANCE),
 ];
 
 /// Unit suffixes of keys: suffix, dimension, unit as people write it. Longest match wins.
