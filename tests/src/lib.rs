@@ -10,6 +10,8 @@ mod invariance;
 #[cfg(test)]
 mod invariance_process;
 #[cfg(test)]
+mod isolated;
+#[cfg(test)]
 mod oracle;
 #[cfg(test)]
 mod peers;

@@ -4,43 +4,57 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use report::{Provenance, Report, StepTime, Timing};
+use report::{Baseline, Provenance, Report, Severity, StepTime, Timing};
 use sim::film::Film;
-use sim::finding::Severity;
 use sim::preflight::{Preflight, Step, preflight};
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
-use crate::pictures::{self, Album};
+use crate::outputs::{Form, Saved, make_folder, today};
+use crate::page::page;
+use crate::pictures::Album;
+use crate::recordings::{McapProfile, Recorder, Recording};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{DEGRADED, FEASIBLE, FOUND, files};
+use crate::{DEGRADED, FEASIBLE, FOUND, diff, files};
 
 /// Check a job before it reaches the robot
 ///
-/// Exits with 0 if nothing stops the job, 1 if findings do, 2 if the job cannot be used, 4 if under
-/// --strict something was left out that does not change the verdict.
+/// Exits with 0 if nothing stops the job, 1 if findings do, 2 if the job cannot be used, 3 on a bug of ours, 4 if under
+/// --strict something was left out that does not change the verdict, 130 on Ctrl-C.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Check {
     /// Job to check
     #[arg(value_name = "JOB.slam")]
     job: PathBuf,
-    /// Folder for report.json, strands.html, picture.png, frame.png and collapse.png
+    /// Folder for report.html, report.json, strands.html and pictures
     #[arg(long, value_name = "DIR", default_value = "twin.out")]
     out: PathBuf,
     /// Draw no picture
     #[arg(long)]
     no_render: bool,
-    /// Write no page of plots
+    /// Write no pages: neither report.html nor strands.html
     #[arg(long)]
-    no_plots: bool,
+    no_pages: bool,
     /// What to print
-    #[arg(long, value_enum, default_value_t = Format::Human)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = Form::Human)]
+    format: Form,
+    /// Also write these forms, to the folder of the answer or to a file: sarif,junit=ci/twin.xml
+    #[arg(long, value_name = "FORM[=FILE]", value_delimiter = ',')]
+    report: Vec<Saved>,
+    /// Also record the whole job: files that end in .mcap, .rrd, .glb or .stl
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    record: Vec<Recording>,
+    /// Which programs an MCAP file is for
+    #[arg(long, value_enum, default_value_t = McapProfile::Foxglove)]
+    mcap_profile: McapProfile,
+    /// report.json of an earlier check: what it already found does not fail this one
+    #[arg(long, value_name = "FILE")]
+    baseline: Option<PathBuf>,
     /// From which findings on to exit with 1
     #[arg(long, value_enum, default_value_t = FailOn::Error)]
     fail_on: FailOn,
-    /// Exit with 4 where the picture fails or a check was left out
+    /// Exit with 4 where a picture fails or a check was left out
     #[arg(long)]
     strict: bool,
     /// Threads; all of the machine's if absent
@@ -54,14 +68,6 @@ pub(crate) struct Check {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(crate) enum Format {
-    /// Text for people
-    Human,
-    /// JSON for programs
-    Json,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum FailOn {
     /// The nominal value is past a limit
     Error,
@@ -69,16 +75,21 @@ enum FailOn {
     Warning,
 }
 
+/// The files an answer went to, as they are told.
+type Written = Vec<(&'static str, String)>;
+
 impl Check {
     pub(crate) fn run(self, screen: &mut Screen<'_>) -> Result<u8, Failure> {
         let mut clock = Clock::start();
         let library = Library::open(&self.library)?;
         clock.step("reading");
         let loaded = load::job(&self.job, &library, screen)?;
+        let baseline = self.baseline.as_deref().map(diff::read).transpose()?;
+        let baseline = baseline.as_ref().map(Baseline::of);
         let pool = self.pool()?;
         // before the work, which would be lost
-        self.make_folder()?;
-        let Loaded { source, job, inputs, missing_meshes } = loaded;
+        make_folder(&self.out)?;
+        let Loaded { source, job, allowances, urdf, inputs, missing_meshes } = loaded;
         let bar = bar(screen);
         let checked = on(pool.as_ref(), || {
             preflight(job, |step| {
@@ -93,16 +104,14 @@ impl Check {
         })?;
         clock.stop();
 
-        let report_path = self.out.join("report.json");
+        let film = Film::new(&checked);
         let mut report =
             Report::new(&checked, &source, Provenance::new(inputs, None), clock.timing());
-        files::write_whole(&report_path, report::to_json(&report).as_bytes())?;
-        if !self.no_plots {
-            files::write_whole(&self.page(), report::strands_page(&report).as_bytes())?;
-        }
+        let told = report::apply_allowances(&mut report, &allowances, &today());
+        // the answer is safe before anything is drawn
+        self.write(&checked, &film, &report, &source, None)?;
 
-        let drawn = (!self.no_render).then(|| {
-            let film = Film::new(&checked);
+        let album = (!self.no_render).then(|| {
             clock.step("drawing");
             bar.set_position(Step::ALL.len() as u64);
             bar.set_message("drawing");
@@ -110,55 +119,132 @@ impl Check {
             let mut studio = render::Studio::new(backend, screen.drawer.clone());
             on(pool.as_ref(), || Album::of(&checked, &film, &self.out, &mut studio))
         });
+        let recorder = Recorder {
+            checked: &checked,
+            film: &film,
+            report: &report,
+            source: &source,
+            urdf: Some((&urdf.name, urdf.text.as_bytes())),
+            album: album.as_ref(),
+            profile: self.mcap_profile,
+        };
+        let recorded = self.record(&recorder, &mut clock, &bar)?;
         clock.stop();
         bar.finish_and_clear();
-        if let Some(drawn) = drawn.as_ref().filter(|drawn| !drawn.shots.is_empty()) {
-            report.provenance.drawn_by = Some(drawn.drawn_by.clone());
-            report.timing = clock.timing();
-            files::write_whole(&report_path, report::to_json(&report).as_bytes())?;
+        if let Some(album) = album.as_ref().filter(|album| !album.shots.is_empty()) {
+            report.provenance.drawn_by = Some(album.drawn_by.clone());
         }
-        self.answer(&report, &drawn, screen)?;
-        let undrawn = drawn.as_ref().is_some_and(|drawn| drawn.missing.is_some());
-        let degraded = undrawn || missing_meshes > 0;
-        Ok(self.code(&checked, degraded))
+        report.timing = clock.timing();
+        let mut written = self.write(&checked, &film, &report, &source, album.as_ref())?;
+        written.extend(recorded);
+
+        for sentence in told {
+            writeln!(screen.err, "warning: {sentence}")?;
+        }
+        self.answer(&report, album.as_ref(), &written, screen)?;
+        let undrawn = album.as_ref().is_some_and(|album| album.missing.is_some());
+        Ok(self.code(&report, baseline.as_ref(), undrawn || missing_meshes > 0))
+    }
+
+    /// Everything but pictures and recordings.
+    fn write(
+        &self,
+        checked: &Preflight,
+        film: &Film,
+        report: &Report,
+        source: &slam::Source,
+        album: Option<&Album>,
+    ) -> Result<Written, Refusal> {
+        let mut written = Written::new();
+        let json = self.out.join("report.json");
+        files::write_whole(&json, report::to_json(report).as_bytes())?;
+        if !self.no_pages {
+            let html = self.out.join("report.html");
+            files::write_whole(&html, page(checked, film, report, source, album).as_bytes())?;
+            written.push(("report", html.display().to_string()));
+            let strands = self.out.join("strands.html");
+            files::write_whole(&strands, report::strands_page(report).as_bytes())?;
+            written.push(("plots", strands.display().to_string()));
+        }
+        written.push(("data", json.display().to_string()));
+        for saved in &self.report {
+            saved.write(report, &root(), &self.out)?;
+            written.push(("also", saved.path(&self.out).display().to_string()));
+        }
+        Ok(written)
+    }
+
+    fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        clock: &mut Clock,
+        bar: &ProgressBar,
+    ) -> Result<Written, Refusal> {
+        let mut written = Written::new();
+        for recording in &self.record {
+            clock.step("recording");
+            bar.set_message("recording");
+            let path = recorder.write(recording)?;
+            written.push(("recorded", path.display().to_string()));
+        }
+        Ok(written)
     }
 
     fn answer(
         &self,
         report: &Report,
-        drawn: &Option<Album>,
+        album: Option<&Album>,
+        written: &Written,
         screen: &mut Screen<'_>,
     ) -> Result<(), Failure> {
-        if let Some(Album { missing: Some(why), .. }) = drawn {
+        if let Some(why) = album.and_then(|album| album.missing.as_ref()) {
             writeln!(screen.err, "warning: a picture was not drawn: {why}")?;
         }
-        match self.format {
-            Format::Json => screen.out.write_all(report::to_json(report).as_bytes())?,
-            Format::Human => {
-                let color = screen.out_is_terminal && screen.colour_asked;
-                let text = report::human(report, color, screen.width());
-                writeln!(screen.out, "{}\n", text.trim_end())?;
-                writeln!(screen.out, "report   {}", self.out.join("report.json").display())?;
-                if !self.no_plots {
-                    writeln!(screen.out, "plots    {}", self.page().display())?;
-                }
-                for shot in drawn.iter().flat_map(|drawn| &drawn.shots) {
-                    if let Some(path) = &shot.path {
-                        writeln!(screen.out, "picture  {} ({})", path.display(), shot.words)?;
-                    }
+        let rest = self.out.join("report.html").display().to_string();
+        if self.format != Form::Human {
+            screen.out.write_all(self.format.text(report, &root(), &rest).as_bytes())?;
+        } else {
+            let color = screen.out_is_terminal && screen.colour_asked;
+            let text = report::human(report, color, screen.width());
+            writeln!(screen.out, "{}\n", text.trim_end())?;
+            for (what, file) in written {
+                writeln!(screen.out, "{what:8} {file}")?;
+            }
+            for shot in album.iter().flat_map(|album| &album.shots) {
+                if let Some(path) = &shot.path {
+                    writeln!(screen.out, "picture  {} ({})", path.display(), shot.words)?;
                 }
             }
+        }
+        self.tell_github(report, &rest, screen)
+    }
+
+    /// Annotations and the step's summary, where GitHub's runner listens.
+    fn tell_github(
+        &self,
+        report: &Report,
+        rest: &str,
+        screen: &mut Screen<'_>,
+    ) -> Result<(), Failure> {
+        let Some(github) = screen.github.clone() else { return Ok(()) };
+        if self.format == Form::Human {
+            screen.out.write_all(report::github(report, &root(), rest).as_bytes())?;
+        }
+        if let Some(summary) = &github.summary
+            && let Err(error) = files::append(summary, report::step_summary(report, rest).as_bytes())
+        {
+            writeln!(screen.err, "warning: the step's summary was not written: {error}")?;
         }
         Ok(())
     }
 
     /// What the findings say goes before what was left out.
-    fn code(&self, checked: &Preflight, degraded: bool) -> u8 {
+    fn code(&self, report: &Report, baseline: Option<&Baseline>, degraded: bool) -> u8 {
         let least = match self.fail_on {
             FailOn::Error => Severity::Error,
             FailOn::Warning => Severity::Warning,
         };
-        match checked.findings().iter().any(|finding| finding.severity >= least) {
+        match report::fails(report, least, baseline) {
             true => FOUND,
             false if self.strict && degraded => DEGRADED,
             false => FEASIBLE,
@@ -170,34 +256,11 @@ impl Check {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(n_threads)).build();
         pool.map(Some).map_err(|error| Refusal::whole("--jobs", error.to_string()))
     }
+}
 
-    /// Where the page of plots goes.
-    fn page(&self) -> PathBuf {
-        self.out.join("strands.html")
-    }
-
-    /// The folder of the answer, without pictures and page of an earlier one.
-    fn make_folder(&self) -> Result<(), Refusal> {
-        let name = || self.out.display().to_string();
-        std::fs::create_dir_all(&self.out).map_err(|error| {
-            Refusal::whole(name(), format!("the folder cannot be made: {error}"))
-                .hint("name another with --out")
-        })?;
-        let there = std::fs::read_dir(&self.out).into_iter().flatten().flatten();
-        let pictures = there
-            .filter(|entry| entry.file_name().to_str().is_some_and(pictures::is_ours))
-            .map(|entry| entry.path());
-        for old in pictures.chain([self.page()]) {
-            if let Err(error) = std::fs::remove_file(&old)
-                && old.is_file()
-            {
-                let message =
-                    format!("it is left of an earlier check and cannot be removed: {error}");
-                return Err(Refusal::whole(old.display().to_string(), message));
-            }
-        }
-        Ok(())
-    }
+/// The folder that paths in machine formats are told from.
+fn root() -> String {
+    std::env::current_dir().unwrap_or_default().display().to_string()
 }
 
 /// Runs on the threads asked for.

@@ -1,8 +1,10 @@
 //! Reading within limits, and writing whole files or none.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use slam::{Diagnostic, Source, Span};
 
@@ -116,14 +118,68 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return File::options().write(true).open(path)?.write_all(bytes);
     }
+    whole_or_none(&temporary(&target, "tmp"), &target, |temporary| {
+        File::create(temporary).and_then(|mut file| file.write_all(bytes))
+    })
+}
+
+/// A large file that `write` makes piece by piece at a temporary name beside its own, `.NAME.PID.part`: where the machine
+/// stops, what is there by then can still be read by who recovers recordings.
+///
+/// # Errors
+/// One sentence of `write`, or of the rename.
+pub(crate) fn write_by(
+    path: &Path,
+    write: impl FnOnce(&Path) -> Result<(), String>,
+) -> Result<(), Refusal> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let written = whole_or_none(&temporary(&target, "part"), &target, |temporary| {
+        write(temporary).map_err(io::Error::other)
+    });
+    written.map_err(|error| {
+        Refusal::whole(path.display().to_string(), format!("the file cannot be written: {error}"))
+            .hint("is the folder there, may you write to it, and is there room?")
+    })
+}
+
+/// A name beside the file's own that no other program takes.
+fn temporary(target: &Path, ending: &str) -> PathBuf {
     let mut name = std::ffi::OsString::from(".");
     name.push(target.file_name().unwrap_or_default());
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = target.with_file_name(name);
-    let written = File::create(&temporary).and_then(|mut file| file.write_all(bytes));
-    let renamed = written.and_then(|()| fs::rename(&temporary, &target));
+    name.push(format!(".{}.{ending}", std::process::id()));
+    target.with_file_name(name)
+}
+
+/// Adds to the end of a file that others write to as well.
+pub(crate) fn append(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    File::options().append(true).create(true).open(path)?.write_all(bytes)
+}
+
+/// What `write` leaves at a temporary name gets its real name once it is whole, and is removed where it is not.
+fn whole_or_none(
+    temporary: &Path,
+    target: &Path,
+    write: impl FnOnce(&Path) -> io::Result<()>,
+) -> io::Result<()> {
+    half_written().insert(temporary.to_owned());
+    let renamed = write(temporary).and_then(|()| fs::rename(temporary, target));
     if renamed.is_err() {
-        let _ = fs::remove_file(&temporary);
+        let _ = fs::remove_file(temporary);
     }
+    half_written().remove(temporary);
     renamed
+}
+
+/// Files that are not whole yet.
+static HALF_WRITTEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn half_written() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    HALF_WRITTEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what is half written: for whoever ends the program from outside (Ctrl-C).
+pub fn remove_temporary() {
+    for file in std::mem::take(&mut *half_written()) {
+        let _ = fs::remove_file(file);
+    }
 }

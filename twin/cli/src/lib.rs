@@ -6,6 +6,7 @@
 
 mod calibrate;
 mod check;
+mod diff;
 mod doctor;
 mod draw;
 mod explain;
@@ -15,8 +16,11 @@ mod library;
 mod load;
 mod map;
 mod names;
+mod outputs;
+mod page;
 mod pictures;
 mod plan;
+mod recordings;
 mod refusal;
 mod render;
 mod robot;
@@ -34,8 +38,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use clap::Parser;
 use clap::error::ErrorKind;
 
+pub use files::remove_temporary;
 use refusal::Failure;
-pub use screen::Screen;
+pub use screen::{GitHub, Screen};
 
 /// Nothing was found at or above `--fail-on`.
 pub const FEASIBLE: u8 = 0;
@@ -63,6 +68,7 @@ struct Twin {
 enum Command {
     Check(check::Check),
     Render(render::Render),
+    Diff(diff::Diff),
     Plan(plan::Plan),
     Map(map::Map),
     Calibrate(calibrate::Calibrate),
@@ -82,14 +88,7 @@ pub fn run(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> u8 {
-    let mut screen = Screen {
-        out,
-        err,
-        out_is_terminal: false,
-        err_is_terminal: false,
-        colour_asked: false,
-        drawer: None,
-    };
+    let mut screen = Screen::quiet(out, err);
     run_on(args, &mut screen)
 }
 
@@ -124,6 +123,7 @@ impl Command {
         match self {
             Self::Check(command) => command.run(screen),
             Self::Render(command) => command.run(screen),
+            Self::Diff(command) => command.run(screen),
             Self::Plan(command) => command.run(screen),
             Self::Map(command) => command.run(screen),
             Self::Calibrate(command) => command.run(screen),
@@ -177,14 +177,7 @@ fn usage(error: &clap::Error, screen: &mut Screen<'_>) -> u8 {
 /// What is wrong with the job, in sentences.
 pub fn checked(job: &std::path::Path) -> Result<sim::preflight::Preflight, String> {
     let (mut out, mut err) = (Vec::new(), Vec::new());
-    let mut screen = Screen {
-        out: &mut out,
-        err: &mut err,
-        out_is_terminal: false,
-        err_is_terminal: false,
-        colour_asked: false,
-        drawer: None,
-    };
+    let mut screen = Screen::quiet(&mut out, &mut err);
     let told = |failure| match failure {
         Failure::Refused(refusal) => refusal.sentences(),
         Failure::Output(error) => error.to_string(),

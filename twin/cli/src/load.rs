@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use report::Input;
 use sim::cell::{Cell, Job, Parts, resolve};
 use slam::cell_file::{self, CellFile};
-use slam::document::{Document, Form};
+use slam::document::{Allowance, Document, Form};
 use slam::material_file::{self, MaterialFile};
 use slam::mesh::Mesh;
 use slam::tool_file::{self, ToolFile};
@@ -25,6 +25,10 @@ pub(crate) struct Loaded {
     pub(crate) source: Source,
     /// What it says.
     pub(crate) job: Job,
+    /// Findings that it lets pass for a while.
+    pub(crate) allowances: Vec<Allowance>,
+    /// URDF of its robot.
+    pub(crate) urdf: Source,
     /// The files it was made from.
     pub(crate) inputs: Vec<Input>,
     /// Link meshes that could not be had, so that these links are not in the way of anything.
@@ -83,7 +87,14 @@ pub(crate) fn job(
         form_meshes: &form_meshes,
     };
     let job = resolve(&document, &parts).map_err(|problems| Refusal::of(&source, problems))?;
-    Ok(Loaded { job, inputs, missing_meshes: meshes.warnings.len(), source })
+    Ok(Loaded {
+        job,
+        allowances: document.allow,
+        urdf: robot.source,
+        inputs,
+        missing_meshes: meshes.warnings.len(),
+        source,
+    })
 }
 
 fn input(what: &str, source: &Source) -> Input {

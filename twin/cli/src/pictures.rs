@@ -203,9 +203,14 @@ fn strip_times(film: &Film) -> Vec<f64> {
 
 /// Writes a PNG whole or not at all.
 pub(crate) fn write_png(rgba: &RgbaImage, path: &Path) -> Result<(), String> {
+    files::write_whole(path, &png(rgba)?).map_err(|refusal| refusal.sentences())
+}
+
+/// Bytes of a PNG.
+pub(crate) fn png(rgba: &RgbaImage) -> Result<Vec<u8>, String> {
     let mut png = Cursor::new(Vec::new());
     rgba.write_to(&mut png, image::ImageFormat::Png).map_err(|error| error.to_string())?;
-    files::write_whole(path, &png.into_inner()).map_err(|refusal| refusal.sentences())
+    Ok(png.into_inner())
 }
 
 /// Bytes of a JPEG, for pages.

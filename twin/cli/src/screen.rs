@@ -1,6 +1,7 @@
 //! Where answers and complaints go.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
 use slam::{Diagnostic, Source};
 
@@ -18,10 +19,34 @@ pub struct Screen<'a> {
     pub colour_asked: bool,
     /// The process that draws; `None`: this one.
     pub drawer: Option<::render::Drawer>,
+    /// GitHub's runner, where it reads what is printed: annotations and a step summary are written for it.
+    pub github: Option<GitHub>,
+}
+
+/// What GitHub's runner has told of itself.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct GitHub {
+    /// File that the step's summary is added to.
+    pub summary: Option<PathBuf>,
 }
 
 /// Width of answers where `COLUMNS` does not say, characters.
 const WIDTH: usize = 100;
+
+impl<'a> Screen<'a> {
+    /// Two streams that nobody watches.
+    pub fn quiet(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
+        Self {
+            out,
+            err,
+            out_is_terminal: false,
+            err_is_terminal: false,
+            colour_asked: false,
+            drawer: None,
+            github: None,
+        }
+    }
+}
 
 impl Screen<'_> {
     /// Tells diagnostics: with the lines they are about on a terminal, else one line each.

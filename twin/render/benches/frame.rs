@@ -41,12 +41,8 @@ fn helix() -> Scene {
 }
 
 fn frame(criterion: &mut Criterion) {
-    let view = View {
-        size_px: (1280, 720),
-        camera: Camera::Isometric,
-        fit: Fit::Part,
-        ghost_arm: false,
-    };
+    let view =
+        View { size_px: (1280, 720), camera: Camera::Isometric, fit: Fit::Part, ghost_arm: false };
     let task = Task::View { scene: Box::new(helix()), view };
     let mut group = criterion.benchmark_group("frame of 20000 capsules");
     group.sample_size(10).measurement_time(Duration::from_secs(20));

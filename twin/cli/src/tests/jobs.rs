@@ -107,7 +107,7 @@ fn check_writes_its_report_and_says_where() {
     let n_errors = errors.filter(|finding| finding["severity"] == "error").count();
     assert_eq!(done.code == FOUND, n_errors > 0);
     assert_eq!(report["provenance"]["inputs"][0]["what"], "job");
-    let done = twin(args(&["--no-plots", "--format", "json", "--fail-on", "warning"]));
+    let done = twin(args(&["--no-pages", "--format", "json", "--fail-on", "warning"]));
     assert!(!page.exists(), "the page of an earlier check is gone");
     let printed: serde_json::Value = serde_json::from_str(&done.out).expect("JSON");
     assert_eq!(printed["findings"], report["findings"]);
