@@ -113,12 +113,18 @@ await rest(page);
 // play
 await page.locator('#view3d-canvas').focus();
 await page.keyboard.press(' ');
-await page.waitForTimeout(700);
+await page.waitForFunction(() => window.twinView.state().time_s > 0 && window.twinView.state().playing, null, { timeout: 20000 }).catch(() => {});
 const playing = await state(page);
 await page.keyboard.press(' ');
 check(playing.playing && playing.time_s > 0 && playing.time_s < first.time_s, `it plays: ${playing.time_s} s`);
 await page.waitForTimeout(100);
 check(!(await state(page)).playing, 'it pauses');
+
+// nothing is drawn while nothing changes
+await rest(page);
+const idle = (await state(page)).pictures;
+await page.waitForTimeout(500);
+check((await state(page)).pictures === idle, 'at rest nothing is drawn');
 
 // boxes
 await page.evaluate(timeS => window.twinView.setTime(timeS), first.time_s / 2);
@@ -144,6 +150,10 @@ if (index >= 0) {
   check((await state(page)).finding === index, 'the view hears of a finding');
 }
 
+await page.locator('#view3d-canvas').focus();
+await page.keyboard.press('Escape');
+check((await state(page)).finding === null, 'Escape forgets the finding');
+
 // dark
 await page.evaluate(() => document.dispatchEvent(new CustomEvent('twin:theme', { detail: { dark: true } })));
 await page.evaluate(timeS => { window.twinView.setTime(timeS); }, first.time_s);
@@ -167,6 +177,14 @@ await phone.waitForFunction(() => window.twinView);
 await picture(phone, 'phone-canvas');
 if (shots) await phone.locator('#view3d').screenshot({ path: join(shots, 'phone.png') });
 check(await phone.evaluate(() => { const b = document.getElementById('view3d').getBoundingClientRect(); return b.left >= 0 && b.right <= 391 && document.documentElement.scrollWidth <= 391; }), 'fits 390 px');
+const wide = (await state(phone)).camera.distance;
+const fingers = await phone.context().newCDPSession(phone);
+const middle = await phone.locator('#view3d-canvas').evaluate(canvas => { canvas.scrollIntoView({ block: 'center' }); const b = canvas.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; });
+const touch = (type, half) => fingers.send('Input.dispatchTouchEvent', { type, touchPoints: half ? [-half, half].map((dx, id) => ({ x: middle[0] + dx, y: middle[1], id })) : [] });
+await touch('touchStart', 30);
+for (const half of [40, 55, 70]) await touch('touchMove', half);
+await touch('touchEnd', 0);
+check((await state(phone)).camera.distance < 0.8 * wide, 'two fingers zoom');
 check(phone.complaints.length === 0, 'no complaints on a phone: ' + phone.complaints.slice(0, 5).join(' | '));
 
 // no WebGL at all

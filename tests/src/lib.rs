@@ -14,6 +14,8 @@ mod isolated;
 #[cfg(test)]
 mod oracle;
 #[cfg(test)]
+mod outputs;
+#[cfg(test)]
 mod peers;
 #[cfg(test)]
 mod pictures;

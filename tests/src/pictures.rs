@@ -15,7 +15,11 @@ const CORNER: [f64; 2] = [0.5, 0.05];
 
 /// Golden picture, job, and how it is asked for.
 const PICTURES: [(&str, &str, &[&str]); 6] = [
-    ("tapered-helix/sheet.png", "tapered-helix/job.slam", &["--view", "sheet", "--size", "1600x900"]),
+    (
+        "tapered-helix/sheet.png",
+        "tapered-helix/job.slam",
+        &["--view", "sheet", "--size", "1600x900"],
+    ),
     ("lattice/frame.png", "lattice/job.slam", &["--view", "frame", "--size", "1600x1100"]),
     (
         "near-miss-s402/collapse.png",
@@ -74,7 +78,8 @@ fn compare(drawn: &Path, golden_name: &str) -> Result<(), String> {
     let new = open(drawn);
     // "force" renews all, "1" those that fail
     let keep = |new: &image::RgbImage| {
-        std::fs::create_dir_all(golden.parent().expect("a folder")).expect("renders/ can be written");
+        std::fs::create_dir_all(golden.parent().expect("a folder"))
+            .expect("renders/ can be written");
         new.save(&golden).expect("a golden picture can be written");
         Ok(())
     };

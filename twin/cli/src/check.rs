@@ -231,7 +231,8 @@ impl Check {
             screen.out.write_all(report::github(report, &root(), rest).as_bytes())?;
         }
         if let Some(summary) = &github.summary
-            && let Err(error) = files::append(summary, report::step_summary(report, rest).as_bytes())
+            && let Err(error) =
+                files::append(summary, report::step_summary(report, rest).as_bytes())
         {
             writeln!(screen.err, "warning: the step's summary was not written: {error}")?;
         }

@@ -12,7 +12,6 @@ use slam::urdf::RobotDescription;
 use slam::{Diagnostic, Source, Span};
 
 use crate::FEASIBLE;
-use crate::check::Format;
 use crate::library::{Kind, Library, LibraryArgs};
 use crate::names::with_names;
 use crate::refusal::{Failure, Refusal};
@@ -84,6 +83,14 @@ struct HeldArm {
     arm: Arm,
     /// Values of the leading joints of the whole chain, rad or m.
     held: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// Text for people
+    Human,
+    /// JSON for programs
+    Json,
 }
 
 impl Inspect {

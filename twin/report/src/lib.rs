@@ -1,4 +1,5 @@
-//! What the twin found, as JSON for programs, as text for a terminal, as a page of plots and in the formats of others.
+//! What the twin found: as JSON, as text for a terminal, as a page that people send to each other, as a page of plots and in the
+//! formats of CI systems.
 //!
 //! [`Report::new`] takes everything it says from a [`sim::preflight::Preflight`]; hashes, times and
 //! the name of who drew the pictures come from the caller. Nothing here computes a result.
@@ -10,6 +11,7 @@ mod compare;
 mod fill;
 mod formats;
 mod frame;
+mod html;
 mod human;
 mod line;
 mod metrics;
@@ -34,6 +36,7 @@ pub use allow::{apply_allowances, fails};
 pub use compare::{Baseline, Both, Change, Diff, Side, diff};
 pub use formats::{concise, github, gitlab, junit, markdown, sarif, step_summary};
 pub use frame::{Landing, LoadCase, Remedy, Stage, Yield, YieldCriterion};
+pub use html::{EmbeddedPicture, Extras, PictureKind, page as html_page, view3d};
 pub use human::human;
 pub use parts::{
     Allowed, Assumption, Finding, Input, Phase, Provenance, Report, Scores, Severity, Site,

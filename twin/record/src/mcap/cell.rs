@@ -89,7 +89,7 @@ fn cylinder(ends: (Point, Point), radii: (f64, f64), at: &Pose, colour: &Proto) 
     if !(length_m > 0.0 && radius_m > 0.0 && length_m.is_finite() && radius_m.is_finite()) {
         return None;
     }
-    let pose = at * from_z_axis(nalgebra::center(&ends.0, &ends.1), axis, Vector::x());
+    let pose = at * from_z_axis(ends.0 + axis / 2.0, axis, Vector::x());
     let size = Vector::new(2.0 * radius_m, 2.0 * radius_m, length_m);
     Some(
         Proto::default()

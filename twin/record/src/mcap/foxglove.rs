@@ -37,6 +37,7 @@ pub(super) fn tell(story: &Story<'_>, due: &Due, at: &dyn Fn(f64) -> u64) -> Mes
         Item::Cell => vec![
             (&CELL, cell::update(story, due.time_s, ns)),
             (&FINDINGS, parts::update(print::marks(story, ns))),
+            (&LOG, log(story, ns, INFO, "twin", &story.headline())),
         ],
         Item::Pose => poses(story, due.time_s, ns),
         Item::Leg(_) | Item::Wait | Item::Done => state(story, due.item, ns),
@@ -128,18 +129,29 @@ fn event(from_ns: u64, to_ns: u64, kind: &str, facts: &[(&str, String)]) -> Vec<
 fn finding(story: &Story<'_>, index: usize, ns: u64) -> Messages {
     let Some((finding, words)) = story.finding(index) else { return Vec::new() };
     let level = match finding.severity {
-        Severity::Warning => 3,
-        Severity::Error => 4,
+        Severity::Warning => WARNING,
+        Severity::Error => ERROR,
     };
-    let log = Proto::default()
+    let line = log(story, ns, level, finding.code.as_str(), &words);
+    let facts = story.finding_facts(index);
+    vec![(&LOG, line), (&EVENTS, event(ns, ns, "finding", &facts))]
+}
+
+// foxglove.Log.Level
+const INFO: u64 = 2;
+const WARNING: u64 = 3;
+const ERROR: u64 = 4;
+
+/// `foxglove.Log`.
+fn log(story: &Story<'_>, ns: u64, level: u64, name: &str, words: &str) -> Vec<u8> {
+    Proto::default()
         .message(1, parts::stamp(ns))
         .uint(2, level)
-        .text(3, &words)
-        .text(4, finding.code.as_str())
+        .text(3, words)
+        .text(4, name)
         .text(5, &text::name(&story.film.job))
-        .fixed32(6, 0);
-    let facts = story.finding_facts(index);
-    vec![(&LOG, log.into_bytes()), (&EVENTS, event(ns, ns, "finding", &facts))]
+        .fixed32(6, 0)
+        .into_bytes()
 }
 
 /// `foxglove.CompressedImage`.

@@ -28,6 +28,7 @@ pub(crate) use story::{STRAND_COLOUR, Story, rgb};
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
 
+use crate::RecordError;
 use sim::film::Film;
 use sim::preflight::Preflight;
 
@@ -83,26 +84,6 @@ pub struct Recorded {
     pub chunks: u64,
     /// Number of messages of each topic.
     pub topics: BTreeMap<&'static str, u64>,
-}
-
-/// Why a recording was not written.
-#[derive(Debug, thiserror::Error)]
-pub enum RecordError {
-    /// The place it is written to refused.
-    #[error("cannot write the recording: {0}")]
-    Io(#[from] std::io::Error),
-    /// The format refused.
-    #[error("cannot write the recording: {0}")]
-    Mcap(mcap::McapError),
-}
-
-impl From<mcap::McapError> for RecordError {
-    fn from(error: mcap::McapError) -> Self {
-        match error {
-            mcap::McapError::Io(error) => Self::Io(error),
-            other => Self::Mcap(other),
-        }
-    }
 }
 
 /// Writes a recording, chunk by chunk: whatever part of it is there after a crash holds its whole chunks, job and report

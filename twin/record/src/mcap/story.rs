@@ -134,6 +134,20 @@ impl<'a> Story<'a> {
         facts
     }
 
+    /// The first line of the log: the job and its verdict.
+    pub(crate) fn headline(&self) -> String {
+        let told = self.verdict();
+        let word = |key: &str| told.get(key).map_or("", String::as_str);
+        format!(
+            "{}: {}, score {}, errors {}, warnings {}",
+            text::name(&self.film.job),
+            word("verdict"),
+            word("score"),
+            word("errors"),
+            word("warnings")
+        )
+    }
+
     /// Verdict, score and what decided it.
     pub(crate) fn verdict(&self) -> BTreeMap<String, String> {
         let findings = self.preflight.findings();

@@ -57,7 +57,10 @@ pub(crate) fn qos(latched: bool) -> String {
 fn at_first(story: &Story<'_>, ns: u64) -> Messages {
     let frame = story.player.frame_at(0.0);
     let still: Vec<_> = story.frames.poses(&frame).filter(|(named, _)| named.is_still()).collect();
-    let mut all = vec![(&TF_STATIC, transforms(&still, ns))];
+    let mut all = vec![
+        (&TF_STATIC, transforms(&still, ns)),
+        (&LOG, log(story, ns, 20, "twin", &story.headline())),
+    ];
     if let Some(urdf) = story.urdf {
         let mut description = Cdr::new();
         description.text(&String::from_utf8_lossy(urdf));
@@ -125,18 +128,23 @@ fn piece(story: &Story<'_>, ns: u64, order: usize, from: usize, to: usize) -> Ve
     cdr.into_bytes()
 }
 
-/// A finding as `rcl_interfaces/msg/Log`.
+/// A finding as a line of the log.
 fn finding(story: &Story<'_>, index: usize, ns: u64) -> Messages {
     let Some((finding, words)) = story.finding(index) else { return Vec::new() };
     let level = match finding.severity {
         Severity::Warning => 30,
         Severity::Error => 40,
     };
+    let name = format!("twin.{}", finding.code.as_str());
+    vec![(&LOG, log(story, ns, level, &name, &words))]
+}
+
+/// `rcl_interfaces/msg/Log`.
+fn log(story: &Story<'_>, ns: u64, level: u8, name: &str, words: &str) -> Vec<u8> {
     let mut cdr = Cdr::new();
     time(&mut cdr, ns);
-    cdr.u8(level).text(&format!("twin.{}", finding.code.as_str())).text(&words);
-    cdr.text(&text::name(&story.film.job)).text("").u32(0);
-    vec![(&LOG, cdr.into_bytes())]
+    cdr.u8(level).text(name).text(words).text(&text::name(&story.film.job)).text("").u32(0);
+    cdr.into_bytes()
 }
 
 /// `std_msgs/msg/Header`.

@@ -7,8 +7,9 @@ use crate::{Engine, RenderError};
 use sim::pose::{Point, Vector};
 use sim::scene::Bounds;
 
-/// Edge of the shadow's layer for the two engines, px: rays are dearer.
+/// Edge of the shadow's layer for the two engines, px, of a picture this wide or wider: rays are dearer.
 const SHADOW_PX: (u32, u32) = (2048, 1024);
+const FULL_WIDTH_PX: u32 = 1280;
 /// Rings of neighbours that are asked whether they stand in the way of the sky, px of the picture.
 const RINGS_PX: [f32; 3] = [3.0, 8.0, 18.0];
 
@@ -35,6 +36,8 @@ impl Light {
             Engine::Gpu(_) => SHADOW_PX.0,
             Engine::Cpu { .. } => SHADOW_PX.1,
         };
+        // a small picture does not show a fine shadow
+        let side = side * view.size_px.0.clamp(FULL_WIDTH_PX / 4, FULL_WIDTH_PX) / FULL_WIDTH_PX;
         let shadow = things.capture(engine, &square_view(axes, &lit.corners(), side))?;
         Ok(Light { towards, shadow })
     }

@@ -13,19 +13,19 @@ const LOG_TICKS: i32 = 6;
 
 /// An axis from low to high with the ticks on it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Axis {
-    pub(super) low: f64,
-    pub(super) high: f64,
+pub(crate) struct Axis {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
     /// Whether it is logarithmic; then `low` is positive.
-    pub(super) log: bool,
-    pub(super) ticks: Vec<f64>,
+    pub(crate) log: bool,
+    pub(crate) ticks: Vec<f64>,
     step: f64,
 }
 
 impl Axis {
     /// Over all the finite values, from round number to round number; logarithmic where they are positive
     /// and span more than two decades. About `n` ticks. Nothing to show: 0 to 1.
-    pub(super) fn round(values: impl IntoIterator<Item = f64>, n: usize) -> Self {
+    pub(crate) fn round(values: impl IntoIterator<Item = f64>, n: usize) -> Self {
         let Some([least, most]) = ends(values) else { return Self::round([0.0, 1.0], n) };
         if least > 0.0 && (most / least).log10() > DECADES {
             return Self::logarithmic(least, most);
@@ -37,21 +37,21 @@ impl Axis {
     }
 
     /// From zero, or less.
-    pub(super) fn from_zero(values: impl IntoIterator<Item = f64>, n: usize) -> Self {
+    pub(crate) fn from_zero(values: impl IntoIterator<Item = f64>, n: usize) -> Self {
         let values: Vec<f64> = values.into_iter().collect();
         let axis = Self::round(values.iter().copied(), n);
         if axis.log { axis } else { Self::round(values.into_iter().chain([0.0]), n) }
     }
 
     /// From low to high as they are, with ticks at the round numbers between them.
-    pub(super) fn within(low: f64, high: f64, n: usize) -> Self {
+    pub(crate) fn within(low: f64, high: f64, n: usize) -> Self {
         let [low, high] = ends([low, high]).unwrap_or([0.0, 1.0]);
         let [low, high] = if high - low > 0.0 { [low, high] } else { widened(low, high) };
         Self::linear(low, high, round_step((high - low) / n.max(1) as f64))
     }
 
     /// Whole numbers from 1 to n, half a place free at either end.
-    pub(super) fn counting(n: usize) -> Self {
+    pub(crate) fn counting(n: usize) -> Self {
         let n = n.max(1) as f64;
         Self::linear(0.5, n + 0.5, round_step(n / 6.0).max(1.0))
     }
@@ -73,7 +73,7 @@ impl Axis {
     }
 
     /// Where a value stands, 0 at the low end to 1 at the high end; what is beyond stands at the end.
-    pub(super) fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         let share = match self.log {
             true => (value.max(self.low) / self.low).log10() / (self.high / self.low).log10(),
             false => (value - self.low) / (self.high - self.low),
@@ -82,7 +82,7 @@ impl Axis {
     }
 
     /// A tick in digits: as many as tell it from the next.
-    pub(super) fn label(&self, tick: f64) -> String {
+    pub(crate) fn label(&self, tick: f64) -> String {
         let size = self.low.abs().max(self.high.abs());
         if tick == 0.0 {
             return "0".to_owned();
@@ -103,7 +103,7 @@ impl Axis {
 }
 
 /// Least and greatest of the finite values.
-pub(super) fn ends(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
+pub(crate) fn ends(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().filter(|value| value.is_finite()).fold(
         None,
         |ends: Option<[f64; 2]>, value| {

@@ -10,7 +10,7 @@ const TOP: f64 = 22.0;
 const BOTTOM: f64 = 34.0;
 
 /// A plot in the making.
-pub(super) struct Chart {
+pub(crate) struct Chart {
     x: Axis,
     y: Axis,
     height: f64,
@@ -18,41 +18,46 @@ pub(super) struct Chart {
 }
 
 /// What a plot is called, for those who see it and those who hear it.
-pub(super) struct Words<'a> {
+pub(crate) struct Words<'a> {
     /// Unique on the page; letters, digits, hyphens.
-    pub(super) id: &'a str,
+    pub(crate) id: &'a str,
     /// One line, escaped.
-    pub(super) title: &'a str,
+    pub(crate) title: &'a str,
     /// What it shows in numbers, escaped.
-    pub(super) desc: &'a str,
+    pub(crate) desc: &'a str,
 }
 
 impl Chart {
     /// An empty frame with ticks; names of axes are our own words.
-    pub(super) fn new(x: Axis, y: Axis, names: [&str; 2], height: f64) -> Self {
+    pub(crate) fn new(x: Axis, y: Axis, names: [&str; 2], height: f64) -> Self {
         let mut chart = Self { x, y, height, body: String::new() };
         chart.frame(names);
         chart
     }
 
     /// Length and height of the field inside the frame, units of the view box.
-    pub(super) fn field(height: f64) -> [f64; 2] {
+    pub(crate) fn field(height: f64) -> [f64; 2] {
         [WIDTH - LEFT - RIGHT, height - TOP - BOTTOM]
     }
 
-    pub(super) fn px(&self, x: f64) -> f64 {
+    /// Margins left, right, top and bottom of the field, and the width of all, units of the view box.
+    pub(crate) fn margins() -> [f64; 5] {
+        [LEFT, RIGHT, TOP, BOTTOM, WIDTH]
+    }
+
+    pub(crate) fn px(&self, x: f64) -> f64 {
         LEFT + self.x.share(x) * Self::field(self.height)[0]
     }
 
-    pub(super) fn py(&self, y: f64) -> f64 {
+    pub(crate) fn py(&self, y: f64) -> f64 {
         TOP + (1.0 - self.y.share(y)) * Self::field(self.height)[1]
     }
 
-    pub(super) fn top(&self) -> f64 {
+    pub(crate) fn top(&self) -> f64 {
         TOP
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.height - BOTTOM
     }
 
@@ -79,19 +84,19 @@ impl Chart {
     }
 
     /// A path of a class of the style sheet; an empty one is left out.
-    pub(super) fn path(&mut self, class: &str, d: &str) {
+    pub(crate) fn path(&mut self, class: &str, d: &str) {
         if !d.is_empty() {
             self.body.push_str(&format!("<path class=\"{class}\" d=\"{d}\"/>"));
         }
     }
 
     /// Words at a place, already escaped.
-    pub(super) fn word(&mut self, x: f64, y: f64, class: &str, word: &str) {
+    pub(crate) fn word(&mut self, x: f64, y: f64, class: &str, word: &str) {
         self.body.push_str(&text(x, y, class, word));
     }
 
     /// A line across at a height, with words above its right end.
-    pub(super) fn level(&mut self, class: &str, value: f64, word: &str) {
+    pub(crate) fn level(&mut self, class: &str, value: f64, word: &str) {
         let (y, right) = (self.py(value), WIDTH - RIGHT);
         self.path(class, &format!("M{} {}H{}", at(LEFT), at(y), at(right)));
         let above = if y < TOP + 12.0 { y + 11.0 } else { y - 3.0 };
@@ -99,7 +104,7 @@ impl Chart {
     }
 
     /// A band over the abscissa with a line in it.
-    pub(super) fn band(&mut self, low: Option<f64>, value: Option<f64>, high: Option<f64>) {
+    pub(crate) fn band(&mut self, low: Option<f64>, value: Option<f64>, high: Option<f64>) {
         let (top, bottom) = (self.top(), self.bottom());
         let from = low.map_or(self.px(self.x.low), |low| self.px(low));
         let to = high.map_or(self.px(self.x.high), |high| self.px(high));
@@ -114,7 +119,7 @@ impl Chart {
     }
 
     /// A line through points; it breaks where a number is missing, and a point by itself is a dot.
-    pub(super) fn line(&mut self, class: &str, points: &[(f64, Option<f64>)]) {
+    pub(crate) fn line(&mut self, class: &str, points: &[(f64, Option<f64>)]) {
         let mut d = String::new();
         let mut pen_down = false;
         for (k, &(x, y)) in points.iter().enumerate() {
@@ -134,7 +139,7 @@ impl Chart {
     }
 
     /// The SVG, with title and description for who does not see it.
-    pub(super) fn finish(self, words: &Words<'_>) -> String {
+    pub(crate) fn finish(self, words: &Words<'_>) -> String {
         let Words { id, title, desc } = words;
         format!(
             "<svg role=\"img\" aria-labelledby=\"{id}-t {id}-d\" viewBox=\"0 0 {} {}\" \
@@ -148,7 +153,7 @@ impl Chart {
 }
 
 /// A coordinate with one decimal.
-pub(super) fn at(value: f64) -> String {
+pub(crate) fn at(value: f64) -> String {
     let value = if value.is_finite() { value.clamp(-999.0, 9999.0) } else { 0.0 };
     let text = format!("{value:.1}");
     let text = text.strip_suffix(".0").unwrap_or(&text);

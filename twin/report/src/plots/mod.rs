@@ -5,13 +5,13 @@
 //! comes from a job goes through `text::escaped`. The same report gives the same bytes.
 
 mod ageing;
-mod axis;
+pub(crate) mod axis;
 mod card;
-mod chart;
+pub(crate) mod chart;
 mod course;
 mod overview;
 mod quantities;
-mod text;
+pub(crate) mod text;
 
 #[cfg(test)]
 mod tests;
@@ -48,7 +48,7 @@ pub fn strands_page(report: &Report) -> String {
         Verdict::Feasible => "feasible",
         Verdict::Infeasible => "infeasible",
     };
-    let style = include_str!("style.css");
+    let style = concat!(include_str!("style.css"), include_str!("drawing.css"));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
@@ -68,9 +68,23 @@ fn overview_part(report: &Report, marks: &[Option<Severity>]) -> String {
     if report.strands.is_empty() {
         return "<p>Nothing was printed: there is nothing to plot.</p>".to_owned();
     }
+    format!("<h2>All strands in printing order</h2>\n{}", drawn(report, marks))
+}
+
+/// A plot of every quantity over all strands, and a table of their ends, for another page; empty without strands.
+pub(crate) fn all_strands(report: &Report) -> String {
+    if report.strands.is_empty() {
+        return String::new();
+    }
+    let by_strand = by_strand(report);
+    let of = |id: &str| by_strand.get(id).and_then(|all| worst(all));
+    let marks: Vec<Option<Severity>> = report.strands.iter().map(|strand| of(&strand.id)).collect();
+    drawn(report, &marks)
+}
+
+fn drawn(report: &Report, marks: &[Option<Severity>]) -> String {
     format!(
-        "<h2>All strands in printing order</h2>\n\
-         <p>A mark is what is expected, the bar behind it reaches from the low to the high end of what it may be. \
+        "<p>A mark is what is expected, the bar behind it reaches from the low to the high end of what it may be. \
          Marks: <b class=\"plain\">●</b> no finding, <b class=\"warning\">▲</b> a warning on the strand, \
          <b class=\"error\">■</b> an error on the strand, of whatever kind. \
          A dashed line is a limit that a finding was held against; where there is no finding, the report knows no limit.</p>\n\

@@ -1,39 +1,41 @@
 //! Text and numbers for a page: nothing of a job's text is ever markup.
 
-pub(super) use crate::quantity::counted;
+pub(crate) use crate::quantity::counted;
 use crate::quantity::digits;
 use crate::results::Range;
 
 /// Longest id told, characters.
-pub(super) const LONGEST_ID: usize = 60;
+pub(crate) const LONGEST_ID: usize = 60;
 /// Longest sentence told, characters.
-pub(super) const LONGEST_SENTENCE: usize = 400;
+pub(crate) const LONGEST_SENTENCE: usize = 400;
 /// From here on, in the unit of a plot, a number has no end: `sim` caps what never comes to rest.
 const ENDLESS: f64 = 1e9;
 /// Smaller than this, in the unit of a plot, is zero.
 const NOTHING: f64 = 1e-9;
 
-/// Text as XML wants it, clipped; control characters, those that turn the direction of writing and
-/// those that XML has not become U+FFFD.
-pub(super) fn escaped(text: &str, longest: usize) -> String {
+/// Text as XML wants it, clipped and [`cleaned`].
+pub(crate) fn escaped(text: &str, longest: usize) -> String {
     let mut out = String::with_capacity(text.len().min(longest) + 8);
-    for c in text.chars().take(longest) {
+    for c in cleaned(text, longest).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            c if c.is_control() || turns(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => {
-                out.push('\u{fffd}');
-            }
             c => out.push(c),
         }
     }
-    if text.chars().nth(longest).is_some() {
-        out.push('…');
-    }
     out
+}
+
+/// Text clipped; control characters, those that turn the direction of writing and those that XML has not become
+/// U+FFFD. Not markup yet.
+pub(crate) fn cleaned(text: &str, longest: usize) -> String {
+    let bad = |c: char| c.is_control() || turns(c) || matches!(c, '\u{fffe}' | '\u{ffff}');
+    let shown = text.chars().take(longest).map(|c| if bad(c) { '\u{fffd}' } else { c });
+    let more = text.chars().nth(longest).map(|_| '…');
+    shown.chain(more).collect()
 }
 
 /// Marks that turn the direction of writing, or break lines where no line feed stands.
@@ -43,9 +45,9 @@ fn turns(c: char) -> bool {
 
 /// Unit of a plot and what a number in SI is multiplied with to be in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     /// As written behind a number, without a space; empty for a ratio.
-    pub(super) sign: &'static str,
+    pub(crate) sign: &'static str,
     factor: f64,
     /// SI values from here on have no end.
     endless: f64,
@@ -53,38 +55,38 @@ pub(super) struct Scale {
 
 impl Scale {
     /// From m.
-    pub(super) const MILLIMETRE: Self = Self { sign: "mm", factor: 1e3, endless: 1e3 };
+    pub(crate) const MILLIMETRE: Self = Self { sign: "mm", factor: 1e3, endless: 1e3 };
     /// From m/s.
-    pub(super) const MILLIMETRE_PER_S: Self = Self { sign: "mm/s", factor: 1e3, endless: 1e6 };
+    pub(crate) const MILLIMETRE_PER_S: Self = Self { sign: "mm/s", factor: 1e3, endless: 1e6 };
     /// From s.
-    pub(super) const SECOND: Self = Self { sign: "s", factor: 1.0, endless: ENDLESS };
+    pub(crate) const SECOND: Self = Self { sign: "s", factor: 1.0, endless: ENDLESS };
     /// From N.
-    pub(super) const NEWTON: Self = Self { sign: "N", factor: 1.0, endless: ENDLESS };
+    pub(crate) const NEWTON: Self = Self { sign: "N", factor: 1.0, endless: ENDLESS };
     /// From a share.
-    pub(super) const PERCENT: Self = Self { sign: "%", factor: 1e2, endless: 1e6 };
+    pub(crate) const PERCENT: Self = Self { sign: "%", factor: 1e2, endless: 1e6 };
     /// From Pa.
-    pub(super) const MEGAPASCAL: Self = Self { sign: "MPa", factor: 1e-6, endless: 1e15 };
+    pub(crate) const MEGAPASCAL: Self = Self { sign: "MPa", factor: 1e-6, endless: 1e15 };
     /// A ratio.
-    pub(super) const PLAIN: Self = Self { sign: "", factor: 1.0, endless: ENDLESS };
+    pub(crate) const PLAIN: Self = Self { sign: "", factor: 1.0, endless: ENDLESS };
 
     /// In this unit; `None` where it has no end or is no number.
-    pub(super) fn of(self, value: Option<f64>) -> Option<f64> {
+    pub(crate) fn of(self, value: Option<f64>) -> Option<f64> {
         let value = value.filter(|value| value.abs() < self.endless)? * self.factor;
         Some(if value.abs() < NOTHING { 0.0 } else { value })
     }
 
     /// Nominal, low and high in this unit.
-    pub(super) fn of_range(self, range: &Range) -> [Option<f64>; 3] {
+    pub(crate) fn of_range(self, range: &Range) -> [Option<f64>; 3] {
         [range.value, range.low, range.high].map(|value| self.of(value))
     }
 
     /// What stands at an axis.
-    pub(super) fn axis_name(self) -> &'static str {
+    pub(crate) fn axis_name(self) -> &'static str {
         if self.sign.is_empty() { "ratio" } else { self.sign }
     }
 
     /// A number already in this unit, with it.
-    pub(super) fn with_sign(self, value: f64) -> String {
+    pub(crate) fn with_sign(self, value: f64) -> String {
         let bare = self.bare(value);
         if self.sign.is_empty() { bare } else { format!("{bare} {}", self.sign) }
     }
@@ -98,12 +100,12 @@ impl Scale {
     }
 
     /// `1.20 mm`.
-    pub(super) fn show(self, value: Option<f64>) -> String {
+    pub(crate) fn show(self, value: Option<f64>) -> String {
         self.of(value).map_or_else(|| "no end".to_owned(), |value| self.with_sign(value))
     }
 
     /// `1.20 mm (0.90 to 1.50)`; the range is left out where it is a point on the page.
-    pub(super) fn show_range(self, range: &Range) -> String {
+    pub(crate) fn show_range(self, range: &Range) -> String {
         let end =
             |value| self.of(value).map_or_else(|| "no end".to_owned(), |value| self.bare(value));
         let [low, high] = [end(range.low), end(range.high)];
@@ -113,7 +115,7 @@ impl Scale {
 }
 
 /// Three significant digits; powers of ten where there would be more than five.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         size if (9.5e-4..99_999.5).contains(&size) => digits(value),
@@ -123,7 +125,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// `2.5·10⁻⁵`.
-pub(super) fn power(value: f64, decimals: usize) -> String {
+pub(crate) fn power(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$e}");
     let Some((mantissa, exponent)) = text.split_once('e') else { return text };
     let mantissa = if mantissa.contains('.') {

@@ -83,8 +83,11 @@ class Camera {
     this.pivot = [0, 0, 0];
     [[right, x], [up, y], [forward, z]].forEach(([way, [low, high]]) => { this.pivot = add(this.pivot, way, (low + high) / 2); });
     const half = HALF_VIEW * (aspect < 1 ? 1 / aspect : 1);
-    const wide = Math.max((y[1] - y[0]) / 2 / half, (x[1] - x[0]) / 2 / (half * aspect), 1e-3);
-    this.distance = margin * wide + (this.flat ? 0 : (z[1] - z[0]) / 2);
+    const needs = p => {
+      const off = add(p, this.pivot, -1), [x, y] = [right, up].map(way => Math.abs(dot(off, way)));
+      return margin * Math.max(y / half, x / (half * aspect)) - (this.flat ? 0 : dot(off, forward));
+    };
+    this.distance = points.reduce((most, p) => Math.max(most, needs(p)), 1e-3);
   }
 
   turn(azimuth, elevation) {

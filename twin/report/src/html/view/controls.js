@@ -49,10 +49,10 @@ function plain(value, span) {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-// round values from low to high, three to seven
-function ticks(low, high) {
-  const span = high - low, rough = span / 3.5, ten = 10 ** Math.floor(Math.log10(rough));
-  const step = [5, 2, 1].map(k => k * ten).find(x => x <= rough * (1 + 1e-9));
+// round values from low to high, three to seven; whole ones where only these mean something
+function ticks(low, high, isWhole) {
+  const span = high - low, rough = isWhole ? Math.max(1, span / 3.5) : span / 3.5, ten = 10 ** Math.floor(Math.log10(rough));
+  const step = [5, 2, 1].map(k => k * ten).find(x => x <= rough * (1 + 1e-9)) || 1;
   const out = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * span && out.length < 12; k++) out.push(k * step);
   return out.map(value => [value, plain(Math.abs(value) < 1e-9 * span ? 0 : value, span)]);
@@ -68,9 +68,9 @@ function showLegend(box, scene, painted, values) {
     line.append(sign, text);
     key.append(line);
   };
-  if (painted && values.includes(UNKNOWN)) entry('', hexOf(COLOURS.plain), 'not known');
+  if (painted && values.includes(UNKNOWN)) entry('', hexOf(COLOURS.plain), painted.word === 'clearance' ? 'nothing near' : 'not known');
   for (const kind of Object.keys(KIND_COLOURS)) {
-    if (scene.bodies.some(body => body.kind === kind)) entry('', hexOf(KIND_COLOURS[kind][0]), KIND_COLOURS[kind][1]);
+    if (scene.bodies.some(body => body.kind === kind)) entry('', hexOf(KIND_COLOURS[kind][0]), KIND_COLOURS[kind][1] + (kind === 'bed' ? `, lines every ${plain(1e3 * scene.gridM, 1e3)} mm` : ''));
   }
   const has = kind => scene.findings.some(finding => finding.at && finding.kind === kind);
   if (has('error')) entry('', hexOf(MARK_COLOURS.error), 'error: square');
@@ -92,8 +92,8 @@ function scaleBar(painted, values) {
     out.append(end);
   }
   const isShown = limit !== null && limit >= low && limit <= high;
-  for (const [value, text] of ticks(low, high)) {
-    if (isShown && Math.abs(value - limit) < 0.16 * span) continue;
+  for (const [value, text] of ticks(low, high, painted.source === 'order')) {
+    if (isShown && Math.abs(value - limit) < 0.24 * span) continue;
     const tick = element('span', 'v3-tick', text);
     tick.style.left = at(value);
     out.append(tick);

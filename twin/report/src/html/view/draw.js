@@ -40,16 +40,16 @@ function use(gl, { made, uniforms }, values) {
   }
 }
 
-// A vertex array: entries are [name, floats, data or buffer, floats from one to the next, first float].
+// A vertex array: entries are [name, floats, data or buffer].
 function vertices(gl, { made }, entries, perInstance, faces) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
-  for (const [name, size, data, stride = 0, first = 0] of entries) {
+  for (const [name, size, data] of entries) {
     const at = gl.getAttribLocation(made, name);
     if (at < 0) continue;
     gl.bindBuffer(gl.ARRAY_BUFFER, data instanceof Float32Array ? buffer(gl, data) : data);
     gl.enableVertexAttribArray(at);
-    gl.vertexAttribPointer(at, size, gl.FLOAT, false, 4 * stride, 4 * first);
+    gl.vertexAttribPointer(at, size, gl.FLOAT, false, 0, 0);
     if (perInstance) gl.vertexAttribDivisor(at, 1);
   }
   if (faces) {
@@ -76,11 +76,8 @@ class Renderer {
       mark: program(gl, MARK_VERTEX, MARK_FRAGMENT), pick: program(gl, WHOLE_VERTEX, PICK_FRAGMENT),
     };
     const { strands } = scene;
-    this.values = buffer(gl, new Float32Array(strands.many).fill(UNKNOWN));
-    const when = buffer(gl, strands.when);
-    this.strands = vertices(gl, this.programs.capsule, this.ends(buffer(gl, strands.ends), 6).concat([
-      ['a_radius', 1, strands.radius], ['a_when', 2, when], ['a_value', 1, this.values]]), true);
-    this.planned = vertices(gl, this.programs.line, this.ends(buffer(gl, strands.plannedEnds), 6).concat([['a_when', 2, when]]), true);
+    this.segments = [...scene.bodies.map(body => body.capsules), 0].reduce((a, b) => a + b) + strands.many;
+    this.fillSegments(strands);
     this.bodies = scene.bodies.map(body => this.body(body));
     this.marksAt = scene.findings.filter(finding => finding.at);
     this.markKinds = gl.createBuffer();
@@ -90,23 +87,55 @@ class Renderer {
     this.empty = gl.createVertexArray();
   }
 
-  ends(data, stride) { return [['a_from', 3, data, stride, 0], ['a_to', 3, data, stride, 3]]; }
-
   body(body) {
-    const { gl, programs } = this, many = body.capsules, out = { ...body };
-    if (body.triangles) out.mesh = vertices(gl, programs.mesh, [['a_at', 3, body.at], ['a_normal', 3, body.normal]], false, body.face);
-    if (many) {
-      const data = buffer(gl, body.capsule), always = new Float32Array(2 * many).fill(-1e30);
-      out.round = vertices(gl, programs.capsule, this.ends(data, 7).concat([['a_radius', 1, data, 7, 6],
-        ['a_when', 2, always], ['a_value', 1, new Float32Array(many).fill(UNKNOWN)]]), true);
+    const { gl, programs } = this;
+    return { ...body, mesh: body.triangles ? vertices(gl, programs.mesh, [['a_at', 3, body.at], ['a_normal', 3, body.normal]], false, body.face) : null };
+  }
+
+  // strands, then the round ones of the bodies, which are always there
+  fillSegments({ many, ends, plannedEnds, radius, when }) {
+    const rows = Math.max(1, Math.ceil(this.segments / WIDE)), table = () => new Float32Array(4 * WIDE * rows);
+    const [from, to, plannedFrom, plannedTo] = [table(), table(), table(), table()];
+    this.more = new Float32Array(2 * WIDE * rows).fill(UNKNOWN);
+    const put = (array, k, data, first, last) => { array.set(data.subarray(first, first + 3), 4 * k); array[4 * k + 3] = last; };
+    for (let k = 0; k < many; k++) {
+      const [begin, end] = [when[2 * k], when[2 * k + 1]];
+      put(from, k, ends, 6 * k, radius[k]); put(to, k, ends, 6 * k + 3, begin);
+      put(plannedFrom, k, plannedEnds, 6 * k, end); put(plannedTo, k, plannedEnds, 6 * k + 3, begin);
+      this.more[2 * k + 1] = end;
     }
-    return out;
+    let next = many;
+    for (const body of this.scene.bodies) for (let k = 0; k < body.capsules; k++, next++) {
+      put(from, next, body.capsule, 7 * k, body.capsule[7 * k + 6]); put(to, next, body.capsule, 7 * k + 3, -1e30);
+      this.more[2 * next + 1] = -1e30;
+    }
+    const { gl } = this, made = array => this.fill(this.texture(gl.RGBA32F, WIDE, rows), gl.RGBA, array, rows);
+    this.tables = { from: made(from), to: made(to), plannedFrom: made(plannedFrom), plannedTo: made(plannedTo), more: this.texture(gl.RG32F, WIDE, rows) };
+    this.rows = rows;
+  }
+
+  fill(texture, format, array, rows) {
+    const { gl } = this;
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDE, rows, format, gl.FLOAT, array);
+    return texture;
   }
 
   setValues(values) {
-    const { gl } = this;
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.values);
-    gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
+    values.forEach((value, k) => { this.more[2 * k] = value; });
+    this.gl.activeTexture(this.gl.TEXTURE0);
+    this.fill(this.tables.more, this.gl.RG, this.more, this.rows);
+  }
+
+  // capsules from one number on; `values` are those of the shader
+  drawCapsules(first, many, model, values) {
+    const { gl, tables } = this;
+    this.bind(null, null, tables.from, tables.to, tables.more);
+    use(gl, this.programs.capsule, { ...this.shared, ...this.ray(model), from: 2, to: 3, more: 4, model, ...values });
+    gl.enable(gl.CULL_FACE); gl.cullFace(gl.BACK);
+    gl.bindVertexArray(this.empty);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 16 * first, 16 * many);
+    gl.disable(gl.CULL_FACE);
   }
 
   texture(format, width, height) {
@@ -163,14 +192,14 @@ class Renderer {
     gl.enable(gl.DEPTH_TEST); gl.disable(gl.BLEND); gl.depthMask(true); gl.depthFunc(gl.LEQUAL);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    for (const body of this.bodies) if (look.shows(body) && !look.isGlass(body)) this.drawBody(body, look, false);
+    let round = scene.strands.many;
+    for (const body of this.bodies) {
+      if (look.shows(body) && !look.isGlass(body)) this.drawBody(body, look, false, round);
+      round += body.capsules;
+    }
     const part = look.poses[scene.head.part];
     const least = 0.55 * (look.camera.flat ? look.camera.distance : 1) * 2 * m.half / solid.height;
-    use(gl, this.programs.capsule, { ...this.shared, ...this.ray(part), model: part, pixel: least, plain: rgb(COLOURS.plain), shine: 0.12, faded: look.isPicked ? 1 : 0 });
-    gl.enable(gl.CULL_FACE); gl.cullFace(gl.FRONT);
-    gl.bindVertexArray(this.strands);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, firstAbove(scene.strands.begins, look.timeS));
-    gl.disable(gl.CULL_FACE);
+    this.drawCapsules(0, firstAbove(scene.strands.begins, look.timeS), part, { pixel: least, plain: rgb(COLOURS.plain), shine: 0.12, faded: look.isPicked ? 1 : 0 });
   }
 
   // the eye, or the way of parallel rays, in the axes of a thing
@@ -179,22 +208,16 @@ class Renderer {
     return { eye: this.shared.flat ? [...unturned(model, forward), 0] : [...unmoved(model, eye), 1] };
   }
 
-  drawBody(body, look, isGlass) {
+  drawBody(body, look, isGlass, round) {
     const { gl } = this, model = look.poses[body.mover];
     const base = rgb(KIND_COLOURS[body.kind][0]);
     const plain = look.named.includes(body.name) ? base.map((x, i) => mix(x, rgb(COLOURS.highlight)[i], 0.7)) : base;
     if (body.mesh) {
-      use(gl, isGlass ? this.programs.glass : this.programs.mesh, { ...this.shared, model, plain });
+      use(gl, isGlass ? this.programs.glass : this.programs.mesh, { ...this.shared, model, plain, grid: body.kind === 'bed' ? this.scene.gridM : 0 });
       gl.bindVertexArray(body.mesh);
       gl.drawElements(gl.TRIANGLES, body.face.length, gl.UNSIGNED_SHORT, 0);
     }
-    if (body.round && !isGlass) {
-      use(gl, this.programs.capsule, { ...this.shared, ...this.ray(model), model, plain, pixel: 0, shine: 0.1, faded: 0 });
-      gl.enable(gl.CULL_FACE); gl.cullFace(gl.FRONT);
-      gl.bindVertexArray(body.round);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 14, body.capsules);
-      gl.disable(gl.CULL_FACE);
-    }
+    if (body.capsules && !isGlass) this.drawCapsules(round, body.capsules, model, { plain, pixel: 0, shine: 0.1, faded: 0 });
   }
 
   drawDome(look) {
@@ -210,9 +233,9 @@ class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  bind(depth, colour) {
+  bind(...textures) {
     const { gl } = this;
-    [depth, colour].forEach((texture, unit) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(gl.TEXTURE_2D, texture); });
+    textures.forEach((texture, unit) => { gl.activeTexture(gl.TEXTURE0 + unit); gl.bindTexture(gl.TEXTURE_2D, texture); });
   }
 
   // what hides nothing: glass, path to come, marks; against the depth of the solid things
@@ -220,11 +243,15 @@ class Renderer {
     const { gl, scene } = this, part = look.poses[scene.head.part];
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
-    if (look.planned) {
-      use(gl, this.programs.line, { ...this.shared, model: part, wide: 0.6 * look.dpr, ink: look.ink });
-      gl.bindVertexArray(this.planned);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, scene.strands.many);
+    // the strand that is being laid may have begun a few segments ago
+    const laid = Math.max(0, firstAbove(scene.strands.begins, look.timeS) - 8), left = scene.strands.many - laid;
+    if (look.planned && look.timeS < scene.strands.doneS) {
+      this.bind(this.solid.depth, null, this.tables.plannedFrom, this.tables.plannedTo);
+      use(gl, this.programs.line, { ...this.shared, from: 2, to: 3, model: part, wide: 0.7 * look.dpr, ink: look.ink });
+      gl.bindVertexArray(this.empty);
+      gl.drawArrays(gl.TRIANGLE_STRIP, 6 * laid, 6 * left);
     }
+    this.bind(this.solid.depth, this.solid.colour);
     const glass = this.bodies.filter(body => look.shows(body) && look.isGlass(body));
     if (glass.length) {
       // depth alone first, so that only the nearest skin is seen
@@ -236,15 +263,31 @@ class Renderer {
       }
       gl.disable(gl.DEPTH_TEST);
     }
-    if (look.marks.length) {
-      const kinds = this.marksAt.map(finding => look.marks.includes(finding) ? { note: 0, warning: 1, error: 2 }[finding.kind] + (finding === look.chosen ? 10 : 0) : -20);
+    const seen = this.sparse(look, part);
+    if (seen.size) {
+      const kinds = this.marksAt.map(finding => seen.has(finding) ? { note: 0, warning: 1, error: 2 }[finding.kind] + (finding === look.chosen ? 10 : 0) : -1);
       gl.bindBuffer(gl.ARRAY_BUFFER, this.markKinds);
       gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(kinds), gl.DYNAMIC_DRAW);
-      use(gl, this.programs.mark, { ...this.shared, model: part, radius: 7 * look.dpr, ring: look.ring, near: this.slack(m, look) });
+      use(gl, this.programs.mark, { ...this.shared, model: part, radius: (seen.size > 30 ? 5.5 : 7) * look.dpr, ring: look.ring, near: this.slack(m, look) });
       gl.bindVertexArray(this.marks);
       gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.marksAt.length);
     }
+    this.marksSeen = seen;
     gl.disable(gl.BLEND);
+  }
+
+  // the marks without those that would lie on a worse one: a part full of findings is still to be seen
+  sparse(look, part) {
+    const rank = finding => finding === look.chosen ? -1 : ['error', 'warning', 'note'].indexOf(finding.kind);
+    const seen = new Set(), taken = [], apart = (look.marks.length > 30 ? 30 : 9) * look.dpr;
+    for (const finding of [...look.marks].sort((a, b) => rank(a) - rank(b))) {
+      const p = this.project(moved(part, finding.at));
+      if (!p || p[0] < 0 || p[1] < 0 || p[0] > this.size[0] || p[1] > this.size[1]) continue;
+      if (taken.some(q => Math.abs(p[0] - q[0]) < apart && Math.abs(p[1] - q[1]) < apart)) continue;
+      taken.push(p);
+      seen.add(finding);
+    }
+    return seen;
   }
 
   // depth that stands for the thickest strand at the pivot

@@ -22,7 +22,7 @@ pub(crate) fn section(scene: &View3d) -> String {
 <div class="v3-bar v3-play">
 <button type="button" id="view3d-play" aria-pressed="false" aria-label="play">▶</button>
 <input type="range" id="view3d-time" min="0" max="{total}" step="any" value="{total}" aria-label="time of the program">
-<output id="view3d-clock" for="view3d-time"></output>
+<output id="view3d-clock" for="view3d-time" aria-live="off"></output>
 <label>speed <select id="view3d-speed">{speeds}</select></label>
 </div>
 <div class="v3-bar">
@@ -34,7 +34,7 @@ pub(crate) fn section(scene: &View3d) -> String {
 <label><input type="checkbox" id="view3d-marks" checked> findings</label>
 <label><input type="checkbox" id="view3d-follow"> go with the part</label>
 </div>
-{note}<details class="v3-help"><summary>How to move</summary><p id="view3d-help">Drag to turn, right button, Shift or two fingers to shift, wheel or pinch to zoom (after a click into the view), double click for a new centre, click a strand to name it. Keys: arrows turn, + and − zoom, space plays, Home goes back to the first view.</p></details>
+{note}<details class="v3-help"><summary>How to move</summary><p id="view3d-help">Drag to turn, right button, Shift or two fingers to shift, wheel or pinch to zoom (after a click into the view), double click for a new centre, click a strand to name it. Keys: arrows turn, + and − zoom, space plays, Home goes back to the first view, Escape forgets what was chosen.</p></details>
 </div>
 <script type="application/octet-stream;base64" id="view3d-data">{data}</script>
 </section>

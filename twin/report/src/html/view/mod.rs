@@ -39,6 +39,11 @@ pub(crate) const SCRIPT: &str = concat!(
 /// The style, all of it below `#view3d`.
 pub(crate) const STYLE: &str = include_str!("viewer.css");
 
+/// The 3-D view of a checked job as a section of HTML of about `budget_bytes` at most, for [`crate::Extras::view`].
+pub fn view3d(preflight: &Preflight, film: &Film, budget_bytes: usize) -> String {
+    section(&View3d::new(preflight, film, budget_bytes))
+}
+
 /// Findings that are marked at most.
 const FINDINGS_MAX: usize = 2000;
 /// Characters of a name at most.
@@ -103,10 +108,13 @@ impl View3d {
         let kept = fitting(film, all, left, &mut said);
         told.insert("strands".to_owned(), strands::write(film, &kept, &mut blob));
         View3d {
-            thinned: (!said.is_empty()).then(|| {
-                format!("To keep this file small, {} in the 3-D view.", said.join(", "))
-            }),
-            choices: film.painted.iter().map(|p| (p.quantity.word(), p.scale.title.clone())).collect(),
+            thinned: (!said.is_empty())
+                .then(|| format!("To keep this file small, {} in the 3-D view.", said.join(", "))),
+            choices: film
+                .painted
+                .iter()
+                .map(|p| (p.quantity.word(), p.scale.title.clone()))
+                .collect(),
             job: film.job.clone(),
             total_s: film.total_s,
             data: base64(&blob.finish(told)),
@@ -128,7 +136,7 @@ fn fitting(film: &Film, all: Kept, room: usize, said: &mut Vec<String>) -> Kept 
     }
     let many = all.segments();
     let mut kept = all;
-    for share in [0.02, 0.1, 0.3, 1.0, 3.0, f64::INFINITY] {
+    for share in [0.02, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, f64::INFINITY] {
         kept = strands::thinner(film, &kept, |strand: &FilmStrand| strand.radius_m * share);
         if kept.bytes() <= room {
             said.push(format!("{many} segments are drawn as {}", kept.segments()));

@@ -46,7 +46,7 @@ function listen(canvas, view) {
 
   const keys = {
     ArrowLeft: () => view.turn(-6, 0), ArrowRight: () => view.turn(6, 0), ArrowUp: () => view.turn(0, 6), ArrowDown: () => view.turn(0, -6),
-    '+': () => view.zoom(0.85), '=': () => view.zoom(0.85), '-': () => view.zoom(1 / 0.85), ' ': () => view.play(), Home: () => view.look('hero'),
+    '+': () => view.zoom(0.85), '=': () => view.zoom(0.85), '-': () => view.zoom(1 / 0.85), ' ': () => view.play(), Home: () => view.look('hero'), Escape: () => view.forget(),
   };
   canvas.addEventListener('keydown', event => {
     const act = keys[event.key];

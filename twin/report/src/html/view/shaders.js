@@ -30,33 +30,38 @@ const rgb = hex => [16, 8, 0].map(shift => (hex >> shift & 255) / 255);
 const glsl = c => `vec3(${c.map(x => x.toFixed(10)).join(',')})`;
 const ramp = t => RAMP[0].map((_, i) => clamp(RAMP.reduceRight((sum, c) => sum * t + c[i], 0), 0, 1));
 
+// Segments lie in textures of this width: one end and the radius, the other end and when it begins, colour and when it
+// ends. One strip of 16 corners after the other is quicker than instances of so few, by far where no card helps.
+const WIDE = 1024;
+
 // A capsule as the back of a box about it; each pixel sends its ray. In the axes of what it rides on.
 const CAPSULE_VERTEX = `#version 300 es
 precision highp float;
 uniform mat4 u_model, u_view_project;
 uniform vec4 u_eye; // the eye and 1, or the way of parallel rays and 0
+uniform highp sampler2D u_from, u_to, u_more;
 uniform float u_time, u_pixel;
-in vec3 a_from, a_to;
-in float a_radius, a_value;
-in vec2 a_when;
 flat out vec3 v_from, v_to;
 flat out float v_radius, v_value;
 out vec3 v_at;
 void main() {
-  float span = a_when.y - a_when.x;
-  float share = span > 0.0 ? clamp((u_time - a_when.x) / span, 0.0, 1.0) : step(a_when.x, u_time);
+  int segment = gl_VertexID >> 4, corner = clamp((gl_VertexID & 15) - 1, 0, 13);
+  ivec2 place = ivec2(segment % ${WIDE}, segment / ${WIDE});
+  vec4 from = texelFetch(u_from, place, 0), to = texelFetch(u_to, place, 0), more = texelFetch(u_more, place, 0);
+  float span = more.y - to.w;
+  float share = span > 0.0 ? clamp((u_time - to.w) / span, 0.0, 1.0) : step(to.w, u_time);
   if (share <= 0.0) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
-  vec3 a = a_from, b = mix(a_from, a_to, share);
+  vec3 a = from.xyz, b = mix(a, to.xyz, share);
   float away = u_eye.w > 0.5 ? distance(u_eye.xyz, 0.5 * (a + b)) : 1.0;
-  float r = max(a_radius, u_pixel * away);
+  float r = max(from.w, u_pixel * away);
   float length = distance(a, b);
   vec3 d = length > 1e-9 ? (b - a) / length : vec3(0.0, 0.0, 1.0);
   vec3 u = normalize(cross(d, abs(d.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0)));
   vec3 v = cross(d, u);
-  int bit = 1 << gl_VertexID; // a box as a strip of 14 corners
+  int bit = 1 << corner; // a box as a strip of 14 corners, the first and the last twice
   float x = (0x287a & bit) != 0 ? r : -r, y = (0x02af & bit) != 0 ? r : -r;
   float z = (0x31e3 & bit) != 0 ? length + r : -r;
-  v_from = a; v_to = b; v_radius = r; v_value = a_value;
+  v_from = a; v_to = b; v_radius = r; v_value = more.x;
   v_at = a + u * x + v * y + d * z;
   gl_Position = u_view_project * u_model * vec4(v_at, 1.0);
 }`;
@@ -119,8 +124,11 @@ const MESH_VERTEX = `#version 300 es
 precision highp float;
 uniform mat4 u_model, u_view_project;
 in vec3 a_at, a_normal;
-out vec3 v_normal;
+out vec3 v_normal, v_at;
+out float v_up;
 void main() {
+  v_at = a_at;
+  v_up = a_normal.z;
   v_normal = mat3(u_model) * a_normal;
   gl_Position = u_view_project * u_model * vec4(a_at, 1.0);
 }`;
@@ -130,7 +138,9 @@ const meshFragment = isGlass => `#version 300 es
 precision highp float;
 uniform vec3 u_plain;
 ${isGlass ? 'uniform sampler2D u_depth; uniform float u_fine;' : ''}
-in vec3 v_normal;
+uniform float u_grid; // m, 0 for none
+in vec3 v_normal, v_at;
+in float v_up;
 out vec4 o_colour;
 ${LIT}
 void main() {
@@ -138,7 +148,13 @@ void main() {
   vec3 n = normalize(v_normal);
   if (dot(n, u_forward) > 0.3) n = -n;
   float rim = 1.0 - abs(dot(n, u_forward));
-  o_colour = vec4(lit(u_plain, n, 0.10), ${isGlass ? '0.2 + 0.4 * rim * rim * rim' : '1.0'});
+  vec3 base = u_plain;
+  if (u_grid > 0.0 && v_up > 0.5) { // lines of one pixel; they fade where they would lie closer than four
+    vec2 line = v_at.xy / u_grid, wide = fwidth(line), near = abs(fract(line - 0.5) - 0.5) / wide;
+    vec2 ink = (1.0 - clamp(near, 0.0, 1.0)) * (1.0 - smoothstep(0.1, 0.25, wide));
+    base *= 1.0 - 0.28 * max(ink.x, ink.y);
+  }
+  o_colour = vec4(lit(base, n, 0.10), ${isGlass ? '0.2 + 0.4 * rim * rim * rim' : '1.0'});
 }`;
 
 const WHOLE_VERTEX = `#version 300 es
@@ -181,19 +197,21 @@ const LINE_VERTEX = `#version 300 es
 precision highp float;
 uniform mat4 u_model, u_view_project;
 uniform vec2 u_size; // px
+uniform highp sampler2D u_from, u_to; // ends; when it ends, when it begins
 uniform float u_time, u_wide;
-in vec3 a_from, a_to;
-in vec2 a_when;
 void main() {
-  float span = a_when.y - a_when.x;
-  float share = span > 0.0 ? clamp((u_time - a_when.x) / span, 0.0, 1.0) : step(a_when.x, u_time);
-  vec4 a = u_view_project * u_model * vec4(mix(a_from, a_to, share), 1.0);
-  vec4 b = u_view_project * u_model * vec4(a_to, 1.0);
+  int segment = gl_VertexID / 6, corner = clamp(gl_VertexID % 6 - 1, 0, 3);
+  ivec2 place = ivec2(segment % ${WIDE}, segment / ${WIDE});
+  vec4 from = texelFetch(u_from, place, 0), to = texelFetch(u_to, place, 0);
+  float span = from.w - to.w;
+  float share = span > 0.0 ? clamp((u_time - to.w) / span, 0.0, 1.0) : step(to.w, u_time);
+  vec4 a = u_view_project * u_model * vec4(mix(from.xyz, to.xyz, share), 1.0);
+  vec4 b = u_view_project * u_model * vec4(to.xyz, 1.0);
   if (share >= 1.0 || a.w <= 0.0 || b.w <= 0.0) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   vec2 way = (b.xy / b.w - a.xy / a.w) * u_size;
   way = dot(way, way) > 1e-12 ? normalize(way) : vec2(1.0, 0.0);
-  vec4 p = gl_VertexID < 2 ? a : b;
-  float side = gl_VertexID % 2 == 0 ? 1.0 : -1.0;
+  vec4 p = corner < 2 ? a : b;
+  float side = corner % 2 == 0 ? 1.0 : -1.0;
   gl_Position = p + vec4(vec2(-way.y, way.x) * side * u_wide / u_size * p.w, 0.0, 0.0);
 }`;
 const LINE_FRAGMENT = `#version 300 es
@@ -215,7 +233,7 @@ uniform sampler2D u_depth;
 uniform vec2 u_size;
 uniform float u_radius, u_near;
 in vec3 a_at;
-in float a_kind; // 0 note, 1 warning, 2 error; 10 more: the chosen one
+in float a_kind; // 0 note, 1 warning, 2 error; 10 more: the chosen one; below 0: not shown
 out vec2 v_at;
 flat out float v_kind, v_clear;
 void main() {
@@ -228,7 +246,7 @@ void main() {
   v_clear = chosen || at.z <= there + u_near ? 1.0 : 0.3;
   v_kind = a_kind;
   v_at = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0) * (chosen ? 2.6 : 1.25);
-  gl_Position = p.w > 0.0 ? vec4((p.xy / p.w + v_at * u_radius / u_size * 2.0), 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = p.w > 0.0 && a_kind >= 0.0 ? vec4((p.xy / p.w + v_at * u_radius / u_size * 2.0), 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 const MARK_FRAGMENT = `#version 300 es
 precision highp float;

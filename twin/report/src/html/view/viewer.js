@@ -5,29 +5,29 @@ const FLIGHT_MS = 450;
 
 class View {
   constructor(canvas, scene) {
-    Object.assign(this, { canvas, scene, camera: new Camera(), shown: {}, playing: false, speed: 0, chosen: null, named: [], pickedStrand: null, label: null });
+    Object.assign(this, { canvas, scene, camera: new Camera(), shown: {}, playing: false, speed: 0, chosen: null, named: [], pickedStrand: null, label: null, fineMs: 0, pictures: 0 });
     this.timeS = scene.totalS;
     this.colour = scene.painted.length ? scene.painted[0] : null;
     this.values = new Float32Array(scene.strands.many).fill(UNKNOWN);
     this.paintedAt = null;
+    scene.gridM = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5].find(x => 10 * x > this.partSize()) || 1;
     scene.thickM = scene.strands.radius.reduce((most, r) => Math.max(most, r), 0);
     this.start();
     this.readTheme();
   }
 
   start() {
-    const gl = this.canvas.getContext('webgl2', { alpha: false, antialias: true, powerPreference: 'high-performance' });
+    const gl = this.canvas.getContext('webgl2', { alpha: false, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
     if (!gl) throw new Error('no WebGL 2');
     this.renderer = new Renderer(gl, this.scene);
     this.paintedAt = null;
-    this.fineMs = 0;
   }
 
   // colours of the page
   readTheme() {
     const style = getComputedStyle(byId('body'));
     const get = name => { const hex = style.getPropertyValue(name).trim(); return rgb(parseInt(hex.slice(1), 16) || 0); };
-    Object.assign(this, { ground: [get('--v3-sky'), get('--v3-ground')], ink: [...get('--v3-path'), 0.38], ring: get('--v3-ring') });
+    Object.assign(this, { ground: [get('--v3-sky'), get('--v3-ground')], ink: [...get('--v3-path'), 0.5], ring: get('--v3-ring') });
     this.changed();
   }
 
@@ -72,16 +72,22 @@ class View {
 
   aspect() { return this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight); }
 
-  partCorners() {
-    const [low, high] = this.scene.partBox, pose = this.poses()[this.scene.head.part];
-    return Array.from({ length: 8 }, (_, k) => moved(pose, [0, 1, 2].map(i => (k >> i & 1 ? high : low)[i])));
+  // some of the part's points in the world, enough to frame it
+  partPoints() {
+    const { ends, many } = this.scene.strands, pose = this.poses()[this.scene.head.part], step = Math.max(1, Math.floor(many / 400));
+    const out = [];
+    for (let k = 0; k < many; k += step) out.push(moved(pose, ends.subarray(6 * k, 6 * k + 3)), moved(pose, ends.subarray(6 * k + 3, 6 * k + 6)));
+    if (out.length) return out;
+    // nothing printed: the bed
+    const bed = this.scene.bodies.find(body => body.kind === 'bed'), box = bed ? bed.box : [0, 0, 0, 1, 1, 1], on = bed ? this.poses()[bed.mover] : pose;
+    return [0, 1, 2, 3].map(k => moved(on, [box[0] + (k & 1) * box[3], box[1] + (k >> 1) * box[4], box[2] + box[5]]));
   }
 
   partSize() { return Math.max(1e-3, norm(add(this.scene.partBox[1], this.scene.partBox[0], -1))); }
 
   look(name) {
     const [azimuth, elevation, flat] = VIEWS[name];
-    this.fly(camera => { Object.assign(camera, { azimuth, elevation, flat }); camera.fit(this.partCorners(), this.aspect(), 1.3); });
+    this.fly(camera => { Object.assign(camera, { azimuth, elevation, flat }); camera.fit(this.partPoints(), this.aspect(), 1.22); });
   }
 
   // goes to where `change` leaves the camera
@@ -151,7 +157,7 @@ class View {
   nearestMark(x, y) {
     const part = this.poses()[this.scene.head.part], k = this.canvas.width / this.canvas.clientWidth;
     let [best, least] = [null, 13 * k];
-    for (const finding of this.marks()) {
+    for (const finding of this.renderer.marksSeen || []) {
       const p = this.renderer.project(moved(part, finding.at));
       const off = p ? Math.hypot(p[0] - x * k, p[1] - y * k) : Infinity;
       if (off < least) [best, least] = [finding, off];
@@ -168,11 +174,17 @@ class View {
     if (at) this.fly(camera => { camera.pivot = at; });
   }
 
+  // nothing is pointed at
+  forget() {
+    Object.assign(this, { chosen: null, named: [], pickedStrand: null, label: null, paintedAt: null });
+    this.changed();
+  }
+
   // a mark, a strand or nothing
   click(x, y) {
     const mark = this.nearestMark(x, y);
     if (mark) { this.goToFinding(mark.index, true); return; }
-    Object.assign(this, { chosen: null, named: [], pickedStrand: null, label: null, paintedAt: null });
+    this.forget();
     const at = this.under(x, y);
     if (at) this.nameStrand(unmoved(this.poses()[this.scene.head.part], at));
     this.changed();
@@ -189,9 +201,10 @@ class View {
     if (best < 0 || least > strands.radius[best]) return;
     const order = strands.order[strands.strand[best]], share = this.values[best] > 50 ? this.values[best] - 100 : this.values[best];
     const p = this.colour, span = p ? p.high - p.low : 0;
-    const value = !p ? '' : share === UNKNOWN ? 'not known' : share === BELOW ? 'below ' + plain(p.low, span) : share === ABOVE ? 'above ' + plain(p.high, span) : plain(mix(p.low, p.high, share), span);
+    const value = !p ? '' : share === UNKNOWN ? (p.word === 'clearance' ? 'nothing near' : 'not known') : share === BELOW ? 'below ' + plain(p.low, span) : share === ABOVE ? 'above ' + plain(p.high, span) : plain(mix(p.low, p.high, share), span);
     this.pickedStrand = order;
-    this.say(at, strands.names ? strands.names[order] : 'strand ' + (order + 1), p ? p.title + ' ' + value + (value && share >= 0 && share <= 1 && p.unit ? ' ' + p.unit : '') : '');
+    const name = strands.names ? strands.names[order] : 'strand ' + (order + 1);
+    this.say(at, name, p ? p.title + ' ' + value + (value && share >= 0 && share <= 1 && p.unit ? ' ' + p.unit : '') : '');
   }
 
   // -- colour --
@@ -263,6 +276,7 @@ class View {
     this.placeLabel(poses[scene.head.part]);
     if (fine > 1) { this.renderer.pick(0, 0); this.fineMs = performance.now() - began; }
     this.drawn = true;
+    this.pictures++;
   }
 
   // how far anything lies from the pivot
@@ -288,7 +302,7 @@ class View {
     return {
       camera: this.camera.told(), time_s: this.timeS, colour: this.colour && this.colour.word, playing: this.playing,
       finding: this.chosen && this.chosen.index, moving: Boolean(this.flight), still: Boolean(this.isStill && !this.due),
-      segments: this.scene.strands.many, shown: firstAbove(this.scene.strands.begins, this.timeS),
+      pictures: this.pictures, segments: this.scene.strands.many, shown: firstAbove(this.scene.strands.begins, this.timeS),
     };
   }
 }
@@ -312,6 +326,8 @@ function open() {
     return;
   }
   data.textContent = '';
+  // a part that is carried about would leave the picture
+  byId('follow').checked = !view.scene.movers.movers[view.scene.head.part].still;
   bindControls(view);
   listen(canvas, view);
   showTime(view);
