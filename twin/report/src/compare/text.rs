@@ -26,7 +26,9 @@ impl Diff {
         let mut text = format!("{a} -> {b}: {}\n", self.verdicts());
         for change in self.metrics.iter().filter(|change| change.is_one()) {
             let [name, a, b, by] = change.cells();
-            text.push_str(&format!("  {name:<34} {a:>12} -> {b:>12}  {by}\n"));
+            let line = format!("  {name:<34} {a:>12} -> {b:>12}  {by}");
+            text.push_str(line.trim_end());
+            text.push('\n');
         }
         for told in self.told() {
             text.push_str(&format!("\n{}\n", told.heading));
