@@ -1,6 +1,6 @@
 //! A difference as text and Markdown.
 
-use super::{Both, Change, Diff};
+use super::{Both, Change, Diff, ROUNDING};
 use crate::formats::shared::{Tally, excess};
 use crate::formats::tables::{heading, plain, row};
 use crate::line::one_line;
@@ -9,8 +9,6 @@ use crate::quantity::{Unit, clock, digits, found};
 
 /// Findings told of each kind.
 const TOLD_MAX: usize = 50;
-/// Changes of a figure that are no more than rounding, as a share of it.
-const SAME: f64 = 1e-9;
 
 /// What is said of a list of findings, one sentence each.
 struct Told {
@@ -109,7 +107,7 @@ impl Change {
     /// Whether it changed by more than rounding, or came or went.
     fn is_one(&self) -> bool {
         match (self.a, self.b) {
-            (Some(a), Some(b)) => (b - a).abs() > SAME * a.abs(),
+            (Some(a), Some(b)) => (b - a).abs() > ROUNDING * a.abs(),
             (a, b) => a != b,
         }
     }
