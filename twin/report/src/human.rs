@@ -68,8 +68,8 @@ fn findings(report: &Report, severity: Severity, screen: &mut Screen) {
 
 fn one(report: &Report, finding: &Finding, word: &str, screen: &mut Screen) {
     let paint = if finding.severity == Severity::Error { Paint::Red } else { Paint::Yellow };
-    let head = screen.paint(paint, &format!("{word} {}", finding.code));
-    let title = screen.paint(Paint::Bold, &finding.title);
+    let head = screen.paint(paint, &format!("{word} {}", one_line(&finding.code, 16)));
+    let title = screen.paint(Paint::Bold, &one_line(&finding.title, 200));
     screen.line(&format!("{head} {title}"));
     screen.labelled("", &finding.message);
     let place = place(report, finding);
@@ -176,7 +176,7 @@ fn frame(report: &Report, screen: &mut Screen) {
         screen.line(&format!("load       {}: {value}", one_line(&load.name, 80)));
     }
     if let Some(nearest) = &report.motion.smallest_clearance {
-        let [a, b] = &nearest.bodies;
+        let [a, b] = nearest.bodies.each_ref().map(|body| one_line(body, 80));
         let value = Unit::Millimetre.show(nearest.clearance_m);
         let at = clock(nearest.time_s);
         let open = Unit::Millimetre.show(nearest.resolution_m);
@@ -218,7 +218,7 @@ fn first_yield(load: &LoadCase) -> String {
     let judged = load.yields.iter().filter(|it| it.criterion != YieldCriterion::Axial);
     let first = judged.filter_map(|it| Some((it.factor?, it))).min_by(|a, b| a.0.total_cmp(&b.0));
     let Some((factor, first)) = first else { return String::new() };
-    let strand = first.strand.as_deref().unwrap_or("?");
+    let strand = one_line(first.strand.as_deref().unwrap_or("?"), 80);
     let what = match first.criterion {
         YieldCriterion::Node => format!("a node of `{strand}`"),
         _ => format!("`{strand}`"),

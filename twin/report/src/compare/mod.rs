@@ -62,7 +62,7 @@ pub struct Change {
     pub b: Option<f64>,
     /// B less A.
     pub absolute: Option<f64>,
-    /// That over the size of A; null: A is zero.
+    /// That over the size of A; null: A is zero, but for rounding.
     pub relative: Option<f64>,
     /// What it is shown in.
     #[serde(skip)]
@@ -88,6 +88,9 @@ impl Default for Shown {
         Self(Unit::Plain)
     }
 }
+
+/// A value is zero beside one so many times larger.
+const ROUNDING: f64 = 1e-9;
 
 /// Compares two reports. Findings are the same one where code, strand, phase and bodies are.
 pub fn diff(a: &Report, b: &Report) -> Diff {
@@ -152,7 +155,10 @@ fn changes(a: &Report, b: &Report) -> Vec<Change> {
                 a,
                 b,
                 absolute,
-                relative: absolute.zip(a).and_then(|(by, a)| finite(by / a.abs())),
+                relative: absolute
+                    .zip(a)
+                    .filter(|(by, a)| a.abs() > ROUNDING * by.abs())
+                    .and_then(|(by, a)| finite(by / a.abs())),
                 shown: Shown(metric.unit),
             }
         })

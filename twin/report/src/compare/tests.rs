@@ -50,7 +50,25 @@ fn findings_come_go_and_change() {
     );
     let load = diff.metrics.iter().find(|change| change.name.contains("seat")).expect("of A alone");
     assert_eq!((load.a, load.b, load.absolute), (Some(2.4e-3), None, None));
-    insta::assert_snapshot!(diff.to_text());
+    insta::assert_snapshot!(diff.to_text(), @r"
+    tower -> tower: infeasible as before
+      score                                      0.00 ->         10.0  +10.0
+      time                                    1:02:03 ->      1:08:16  +372 s (+10.0 %)
+      load seat: deflection                   2.40 mm ->            –
+      load seat: first yield at                  3.20 ->            –
+      load seat: buckling at                     8.50 ->            –
+
+    new: 1 error, 0 warnings
+      error C201 nozzle comes within 0.31 mm of s3 in the print of strand `s7` (0.31 mm (-0.19 to 0.81), at least 1.00 mm; worst of 12)
+
+    gone: 1 error, 0 warnings
+      error C201 nozzle comes within 0.31 mm of s3 in the print of strand `s7` (0.31 mm (-0.19 to 0.81), at least 1.00 mm; worst of 12)
+
+    changed: 1 finding
+      warning became error: R102 joint a4 is 2.0° from its stop on strand `s7` at 4.0 mm (was 2.00°, is 0.57°)
+
+    0 findings as before
+    ");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A difference as text and Markdown.
 
-use super::{Both, Change, Diff};
+use super::{Both, Change, Diff, ROUNDING};
 use crate::formats::shared::{Tally, excess};
 use crate::formats::tables::{heading, plain, row};
 use crate::line::one_line;
@@ -9,8 +9,6 @@ use crate::quantity::{Unit, clock, digits, found};
 
 /// Findings told of each kind.
 const TOLD_MAX: usize = 50;
-/// Changes of a figure that are no more than rounding, as a share of it.
-const SAME: f64 = 1e-9;
 
 /// What is said of a list of findings, one sentence each.
 struct Told {
@@ -26,7 +24,9 @@ impl Diff {
         let mut text = format!("{a} -> {b}: {}\n", self.verdicts());
         for change in self.metrics.iter().filter(|change| change.is_one()) {
             let [name, a, b, by] = change.cells();
-            text.push_str(&format!("  {name:<34} {a:>12} -> {b:>12}  {by}\n"));
+            let line = format!("  {name:<34} {a:>12} -> {b:>12}  {by}");
+            text.push_str(line.trim_end());
+            text.push('\n');
         }
         for told in self.told() {
             text.push_str(&format!("\n{}\n", told.heading));
@@ -107,7 +107,7 @@ impl Change {
     /// Whether it changed by more than rounding, or came or went.
     fn is_one(&self) -> bool {
         match (self.a, self.b) {
-            (Some(a), Some(b)) => (b - a).abs() > SAME * a.abs(),
+            (Some(a), Some(b)) => (b - a).abs() > ROUNDING * a.abs(),
             (a, b) => a != b,
         }
     }

@@ -11,18 +11,27 @@ use crate::parts::{Finding, Report, Severity};
 /// Places of the findings in the report, worst first: errors before warnings, then by how far past
 /// the limit, then by time.
 pub(crate) fn worst_first(report: &Report) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..report.findings.len()).collect();
-    order.sort_by(|&a, &b| by_badness(&report.findings[a], &report.findings[b]));
-    order
+    let mut order: Vec<(Badness, usize)> =
+        report.findings.iter().enumerate().map(|(at, finding)| (badness(finding), at)).collect();
+    order.sort_by(|a, b| worse_before(&a.0, &b.0));
+    order.into_iter().map(|(_, at)| at).collect()
 }
 
 /// Worse comes first.
 pub(crate) fn by_badness(a: &Finding, b: &Finding) -> Ordering {
-    let is_warning = |finding: &Finding| finding.severity == Severity::Warning;
-    let time_s = |finding: &Finding| finding.time_s.unwrap_or(f64::INFINITY);
-    (is_warning(a).cmp(&is_warning(b)))
-        .then(excess(b).total_cmp(&excess(a)))
-        .then(time_s(a).total_cmp(&time_s(b)))
+    worse_before(&badness(a), &badness(b))
+}
+
+/// Whether it is a warning, how far past its limit, and when.
+type Badness = (bool, f64, f64);
+
+fn badness(finding: &Finding) -> Badness {
+    let is_warning = finding.severity == Severity::Warning;
+    (is_warning, excess(finding), finding.time_s.unwrap_or(f64::INFINITY))
+}
+
+fn worse_before(a: &Badness, b: &Badness) -> Ordering {
+    a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.total_cmp(&b.2))
 }
 
 /// How far past its limit, as a share of it: an error's nominal value, a warning's bad end.

@@ -17,13 +17,17 @@ const CODES_MAX: usize = 60;
 /// A text of others between words of ours: one line, nothing in it means anything to Markdown or HTML.
 pub(crate) fn plain(text: &str, longest: usize) -> String {
     let mut plain = String::new();
-    for c in one_line(text, longest).chars() {
+    let line = one_line(text, longest);
+    let mut rest = line.chars().peekable();
+    while let Some(c) = rest.next() {
         match c {
             '&' => plain.push_str("&amp;"),
             '<' => plain.push_str("&lt;"),
             '>' => plain.push_str("&gt;"),
-            // no links of bare addresses, no calls of people
-            ':' => plain.push_str("&#58;"),
+            // no links of bare addresses, no calls of people; times and lines of a file stay
+            ':' if rest.peek().is_some_and(|next| !next.is_ascii_digit() && *next != ' ') => {
+                plain.push_str("&#58;");
+            }
             '@' => plain.push_str("&#64;"),
             '\\' | '`' | '*' | '_' | '{' | '}' | '[' | ']' | '#' | '|' | '~' | '$' | '!' => {
                 plain.push('\\');

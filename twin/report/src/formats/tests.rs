@@ -93,8 +93,8 @@ fn fingerprints_outlive_lines_and_numbers_and_are_never_twice() {
     let prints = fingerprints(&report, "");
     assert_eq!(prints, fingerprints(&edited, ""));
     assert_eq!(prints.iter().collect::<BTreeSet<_>>().len(), 1000);
-    edited.findings[3].site.phase = None;
-    assert_ne!(prints[3], fingerprints(&edited, "")[3]);
+    edited.findings[4].site.phase = None;
+    assert_ne!(prints[4], fingerprints(&edited, "")[4]);
     let twins = Report { findings: vec![sample::too_near(); 3], ..sample::report() };
     assert_eq!(fingerprints(&twins, "").into_iter().collect::<BTreeSet<_>>().len(), 3);
 }
@@ -170,7 +170,63 @@ fn the_summary_of_a_small_report() {
     let mut report = sample::report();
     allow(&mut report.findings[1]);
     report.findings.push(Finding { site: Site::default(), ..sample::too_near() });
-    insta::assert_snapshot!(step_summary(&report, "report.json"));
+    insta::assert_snapshot!(step_summary(&report, "report.json"), @r#"
+    ## ❌ tower: infeasible, score 0 of 100
+
+    2 errors, 0 warnings, 1 allowed.
+
+    | family | score | errors | warnings | allowed |
+    | --- | ---: | ---: | ---: | ---: |
+    | R reach and motion | 80 | 0 | 0 | 1 |
+    | C clearance | 0 | 2 | 0 | 0 |
+    | P process | 55 | 0 | 0 | 0 |
+    | S structure | 90 | 0 | 0 | 0 |
+    | E program | – | 0 | 0 | 0 |
+
+    ### Key figures
+
+    | figure | value |
+    | --- | ---: |
+    | time | 1:02:03 |
+    | time printing | 0:50:00 |
+    | time dwelling | 0:02:00 |
+    | time in transit | 0:10:03 |
+    | length | 0.12 m |
+    | mass | 0.88 g |
+    | smallest clearance | 0.31 mm |
+    | largest sag behind the nozzle | 0.42 mm |
+    | largest sag once set | 0.020 mm |
+    | largest displacement by weight | 0.12 mm |
+    | the same staged | 0.080 mm |
+    | strength used in members | 2.00 % |
+    | strength used at nodes | 5.00 % |
+    | least buckling factor | 45.0 |
+    | load seat: deflection | 2.40 mm |
+    | load seat: first yield at | 3.20 |
+    | load seat: buckling at | 8.50 |
+
+    ### Worst findings
+
+    |  | code | where | what | found |
+    | --- | --- | --- | --- | --- |
+    | error | C201 | strand s7, at 12.5 mm, print, 0:01:23, job.slam:12 | nozzle comes within 0.31 mm of s3 in the print of strand \`s7\` | 0.31 mm (-0.19 to 0.81), at least 1.00 mm; worst of 12 |
+    | error | C201 | 0:01:23, job.slam:12 | nozzle comes within 0.31 mm of s3 in the print of strand \`s7\` | 0.31 mm (-0.19 to 0.81), at least 1.00 mm; worst of 12 |
+
+    ```mermaid
+    xychart-beta
+        title "findings along the program"
+        x-axis "time, min" 0 --> 62.057
+        y-axis "findings" 0 --> 2
+        bar [2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]
+    ```
+
+    ### All findings by code
+
+    | code |  | errors | warnings | allowed |
+    | --- | --- | ---: | ---: | ---: |
+    | C201 | nozzle too near printed strands | 2 | 0 | 0 |
+    | R102 | too near a joint limit | 0 | 0 | 1 |
+    "#);
 }
 
 #[test]
@@ -184,7 +240,7 @@ fn the_report_to_read_tells_all_parts() {
         "| C clearance | 0 | 1 | 0 | 0 |",
         "| smallest clearance | 0.31 mm |",
         "- **error C201 nozzle too near printed strands**: nozzle comes within",
-        "  - allowed until 2027-01-31 because&#58; seen &lt;on&gt; the machine",
+        "  - allowed until 2027-01-31 because: seen &lt;on&gt; the machine",
         "| motion | no ramps. |",
         "| job | job.slam | 0000",
     ] {
