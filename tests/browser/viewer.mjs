@@ -22,6 +22,7 @@ const browser = await launch([]);
 // a page that reports what it complains of and what it asks for
 async function open(size, more = {}, from = browser) {
   const page = await (await from.newContext({ viewport: size, ...more })).newPage();
+  page.setDefaultTimeout(180000); // a machine without a card and with other work
   page.complaints = [];
   page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !/GPU stall due to ReadPixels/.test(message.text())) page.complaints.push(message.text().slice(0, 300)); });
   page.on('pageerror', error => page.complaints.push(error.message));
@@ -30,7 +31,7 @@ async function open(size, more = {}, from = browser) {
   return page;
 }
 const state = page => page.evaluate(() => window.twinView.state());
-const rest = page => page.waitForFunction(() => { const s = window.twinView.state(); return s.still && !s.moving; }, null, { timeout: 60000 });
+const rest = page => page.waitForFunction(() => { const s = window.twinView.state(); return s.still && !s.moving; });
 // the canvas as shown; compared as bytes
 const picture = async (page, name) => {
   await page.locator('#view3d').scrollIntoViewIfNeeded();

@@ -7,8 +7,10 @@ use sim::finding::Phase;
 const POSES_A_SECOND: f64 = 25.0;
 /// Most poses of a recording.
 const POSES_MAX: usize = 200_000;
-/// Longest time between poses, s, as long as there is room: a viewer does not look ahead to turn a joint evenly.
+/// Longest time between poses of a short program, s: a viewer does not look ahead to turn a joint evenly.
 const GAP_S: f64 = 0.2;
+/// In a long program as many poses as this fill the gaps.
+const FILLED: f64 = 20_000.0;
 /// About the most pieces all strands are cut into: each is a thing of its own to a viewer.
 const PIECES_MAX: usize = 2_000;
 /// How often all that lies there is told anew.
@@ -99,7 +101,7 @@ pub(crate) fn agenda(film: &Film, player: &Player<'_>, pictures_s: &[f64]) -> Ve
 /// Times at which poses are told: moments of the motion, thinned and filled up.
 fn pose_times(film: &Film, player: &Player<'_>) -> Vec<f64> {
     let room = (film.total_s * POSES_A_SECOND).clamp(2.0, POSES_MAX as f64 / 2.0);
-    let gap_s = GAP_S.max(film.total_s / (0.4 * POSES_MAX as f64));
+    let gap_s = GAP_S.max(film.total_s / FILLED);
     let mut times = vec![0.0];
     for time_s in player.key_times(room as usize) {
         let last_s = times[times.len() - 1];

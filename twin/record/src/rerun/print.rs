@@ -11,7 +11,7 @@ use sim::pose::Point;
 use std::collections::BTreeMap;
 
 /// Pieces that the strands are laid in; each is an entity, and a viewer asks every entity for every picture.
-const PIECES: usize = 400;
+const PIECES: usize = 240;
 /// Up to so many strands each has entities of its own, named by its id.
 const NAMED_MAX: usize = 300;
 /// Findings shown in space, and those among them that bear a label without being pointed at.

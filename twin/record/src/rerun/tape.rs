@@ -144,6 +144,10 @@ fn told(path: &Path, error: RecordingStreamError) -> RecordError {
         RecordingStreamError::FileSink(FileSinkError::CreateFile { source, .. }) => {
             RecordError::File { path: path.to_owned(), error: source }
         }
+        // the file is there, but not even its first bytes
+        RecordingStreamError::FileSink(FileSinkError::LogMsgEncode(_)) => {
+            RecordError::CutShort { path: path.to_owned() }
+        }
         other => packing(other),
     }
 }

@@ -85,6 +85,11 @@ fn moving(preflight: &Preflight, film: &Film) -> Vec<Trace> {
     let mut speed = Vec::new();
     let mut joints: Vec<Vec<[f64; 2]>> = vec![Vec::new(); film.joints.len()];
     for leg in preflight.motion.legs.iter() {
+        // still before it, where the arm may have waited since the last one
+        if let Some(first) = leg.moments.first() {
+            speed.push([first.time_s, 0.0]);
+            joints.iter_mut().for_each(|joint| joint.push([first.time_s, 0.0]));
+        }
         for pair in leg.moments.windows(2) {
             let dt_s = pair[1].time_s - pair[0].time_s;
             if !(dt_s > 0.0) {
@@ -99,7 +104,6 @@ fn moving(preflight: &Preflight, film: &Film) -> Vec<Trace> {
                 joints[index].push([middle_s, turned / dt_s / joint.speed]);
             }
         }
-        // a gap between legs, where the arm may wait
         if let Some(last) = leg.moments.last() {
             speed.push([last.time_s, 0.0]);
             joints.iter_mut().for_each(|joint| joint.push([last.time_s, 0.0]));

@@ -344,4 +344,5 @@ function open() {
   };
 }
 
-if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', open); else open();
+// at once where the section stands before the script, so that the page's first events are heard
+if (byId('data')) open(); else document.addEventListener('DOMContentLoaded', open);
