@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::PathBuf;
 
-use sim::motion::{Across, MapOf, MapState, SpinMap, spin_map};
+use sim::motion::{Across, MapState, SpinMap, spin_map};
 use sim::preflight::preflight;
 
 use crate::library::{Library, LibraryArgs};
@@ -56,19 +56,12 @@ impl Map {
         let checked = preflight(job, |_| {}).map_err(|error| {
             Refusal::whole(&source.name, format!("the frame cannot be solved: {error}"))
         })?;
-        let of = MapOf {
-            job: checked.job(),
-            paths: &checked.paths,
-            motion: &checked.motion,
-            deposit: &checked.deposit,
-            contacts: &checked.contacts,
-        };
         let across = match self.across {
             Vary::Spin => Across::Spin,
             Vary::Tilt => Across::Tilt,
             Vary::Elbow => Across::Elbow,
         };
-        let Some(map) = spin_map(&of, strand, across) else {
+        let Some(map) = spin_map(&checked.map_of(), strand, across) else {
             let why = match across {
                 Across::Elbow => "its arm has no elbow angle, or no posture reaches it",
                 _ => "no posture reaches it",

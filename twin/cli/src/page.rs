@@ -24,6 +24,9 @@ pub(crate) fn page(
             Shows::Frame => PictureKind::Frame,
             Shows::Collapse => PictureKind::Collapse,
             Shows::Moment(time_s) => PictureKind::Strip { time_s },
+            Shows::SpinMap(strand) => {
+                PictureKind::SpinMap { strand: checked.job().strands[strand].id.clone() }
+            }
         },
         alt: shot.words.clone(),
         mime: "image/jpeg",

@@ -7,6 +7,8 @@ use std::time::Instant;
 use image::RgbaImage;
 use render::{Camera, Fit, Picture, Studio, Task, View};
 use sim::film::{Film, FilmStrand, Look, Player, Quantity};
+use sim::finding::{Family, Finding};
+use sim::motion::{Across, spin_map};
 use sim::preflight::{Preflight, deformed, fallen};
 use sim::scene::{MarkSeverity, Scene};
 
@@ -24,6 +26,9 @@ const STRIP_PX: (u32, u32) = (640, 400);
 const FINDINGS_MAX: usize = 6;
 /// Pictures of the film strip.
 const STRIP: usize = 8;
+/// Strands with a spin map, and its size.
+const MAPS_MAX: usize = 2;
+const MAP_PX: (u32, u32) = (1000, 560);
 
 /// What a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +43,8 @@ pub(crate) enum Shows {
     Collapse,
     /// The part at a time, s.
     Moment(f64),
+    /// The orientations that a strand of the job could have had.
+    SpinMap(usize),
 }
 
 /// A picture that was drawn.
@@ -76,8 +83,29 @@ impl Album {
                 album.missing.get_or_insert(why);
             }
         }
+        album.spin_maps(checked);
         album.took_s = begun.elapsed().as_secs_f64();
         album
+    }
+
+    /// Maps of the first strands that the arm has trouble with: they show whether there is another way.
+    fn spin_maps(&mut self, checked: &Preflight) {
+        for strand in troubled(checked) {
+            let id = &checked.job().strands[strand].id;
+            let Some(map) = spin_map(&checked.map_of(), strand, Across::Spin) else { continue };
+            match render::spin_map(&map, &format!("strand {id}"), MAP_PX) {
+                Ok(rgba) => {
+                    let words = format!("orientations of the tool along strand {id}");
+                    self.shots.push(Shot {
+                        shows: Shows::SpinMap(strand),
+                        words,
+                        rgba,
+                        path: None,
+                    });
+                }
+                Err(error) => drop(self.missing.get_or_insert(error.to_string())),
+            }
+        }
     }
 
     fn keep(
@@ -109,8 +137,20 @@ fn file_name(shows: Shows, film: &Film) -> Option<String> {
         Shows::Finding(index) => {
             Some(format!("finding-{}-{}.png", index + 1, film.findings[index].code))
         }
-        Shows::Moment(_) => None,
+        Shows::Moment(_) | Shows::SpinMap(_) => None,
     }
+}
+
+/// The first strands with a finding on reach or motion.
+fn troubled(checked: &Preflight) -> Vec<usize> {
+    let mut strands: Vec<usize> = Vec::new();
+    let of_reach = |f: &&Finding| f.code.family() == Family::Reach;
+    for strand in checked.findings().iter().filter(of_reach).filter_map(|f| f.site.strand) {
+        if strands.len() < MAPS_MAX && !strands.contains(&strand) {
+            strands.push(strand);
+        }
+    }
+    strands
 }
 
 /// Whether a file of the answer's folder is a picture of an earlier check.

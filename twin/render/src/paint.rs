@@ -1,8 +1,10 @@
 //! Colours, all linear inside; sRGB only in the finished pixels.
 
 use crate::layer::thing;
+pub(crate) use sim::scene::colours::{OVER, UNDER, of_severity as severity};
+use sim::scene::colours::{PLAIN, of_kind, viridis};
 use sim::scene::solid::HitId;
-use sim::scene::{BodyKind, ColourScale, MarkSeverity, Scene};
+use sim::scene::{BodyKind, Scene};
 
 /// Linear red, green, blue.
 pub(crate) type Rgb = [f32; 3];
@@ -36,49 +38,21 @@ pub(crate) fn scaled(a: Rgb, k: f32) -> Rgb {
 pub(crate) const INK: u32 = 0x1F2933;
 /// Writing of less weight.
 pub(crate) const FAINT: u32 = 0x5B6672;
-/// Values above the scale.
-pub(crate) const OVER: u32 = 0xD7263D;
-/// Values below the scale.
-pub(crate) const UNDER: u32 = 0x9AA5B1;
-/// Strands without a value.
-const PLAIN: u32 = 0xB9B2A6;
 /// Outline of highlighted strands.
 pub(crate) const HIGHLIGHT: u32 = 0xE8590C;
 
 /// Colour and name of a kind of body.
 pub(crate) fn kind(kind: BodyKind) -> (u32, &'static str) {
-    match kind {
-        BodyKind::Arm => (0xE98A3A, "arm"),
-        BodyKind::Tool => (0x3E4852, "tool"),
-        BodyKind::Nozzle => (0xC79A3B, "nozzle"),
-        BodyKind::Bed => (0xB8C2CC, "bed"),
-        BodyKind::Obstacle => (0x8FA9C4, "obstacle"),
-        BodyKind::Form => (0xD8CDB8, "form"),
-        BodyKind::OtherArm => (0xA7AFB8, "other arm"),
-    }
-}
-
-/// Colour of a mark.
-pub(crate) fn severity(severity: MarkSeverity) -> u32 {
-    match severity {
-        MarkSeverity::Note => 0x2563EB,
-        MarkSeverity::Warning => 0xB45309,
-        MarkSeverity::Error => 0xC81E1E,
-    }
-}
-
-/// Viridis at 0 to 1, sRGB: polynomial of degree 6 by M. Zucker (CC0), within 0.01 of the table.
-fn viridis(t: f64) -> [f64; 3] {
-    const C: [[f64; 3]; 7] = [
-        [0.277_727_327_2, 0.005_407_344_5, 0.334_099_805_3],
-        [0.105_093_043_1, 1.404_613_529_9, 1.384_590_162_6],
-        [-0.330_861_828_7, 0.214_847_559_5, 0.095_095_163_0],
-        [-4.634_230_499_0, -5.799_100_973_4, -19.332_440_956_3],
-        [6.228_269_936_3, 14.179_933_366_8, 56.690_552_600_7],
-        [4.776_384_997_7, -13.745_145_377_7, -65.353_032_633_4],
-        [-5.435_455_855_9, 4.645_852_612_2, 26.312_435_249_6],
-    ];
-    std::array::from_fn(|i| C.iter().rev().fold(0.0, |acc, c| acc * t + c[i]).clamp(0.0, 1.0))
+    let name = match kind {
+        BodyKind::Arm => "arm",
+        BodyKind::Tool => "tool",
+        BodyKind::Nozzle => "nozzle",
+        BodyKind::Bed => "bed",
+        BodyKind::Obstacle => "obstacle",
+        BodyKind::Form => "form",
+        BodyKind::OtherArm => "other arm",
+    };
+    (of_kind(kind), name)
 }
 
 /// Strands still to come.
@@ -100,25 +74,7 @@ pub(crate) fn toned(rgb: Rgb) -> Rgb {
 
 /// Linear colour of a place on the scale, 0 to 1.
 pub(crate) fn ramp(t: f64) -> Rgb {
-    let [r, g, b] = viridis(t.clamp(0.0, 1.0)).map(|s| (s * 255.0).round() as u32);
-    hex(r << 16 | g << 8 | b)
-}
-
-/// Linear colour of a value: beyond the ends the colours are of another kind.
-pub(crate) fn value(scale: &ColourScale, value: f64) -> Rgb {
-    let span = scale.high - scale.low;
-    let t = (value - scale.low) / span;
-    if !value.is_finite() {
-        hex(PLAIN)
-    } else if value > scale.high {
-        hex(OVER)
-    } else if value < scale.low {
-        hex(UNDER)
-    } else if span > 0.0 {
-        ramp(t)
-    } else {
-        ramp(0.5)
-    }
+    hex(viridis(t))
 }
 
 /// Colours of everything in a scene, looked up by a layer's numbers.
@@ -132,7 +88,7 @@ impl Palette {
         let any = scene.strands.iter().any(|s| s.highlighted);
         let strand = |s: &sim::scene::StrandShape| {
             let own = match (&scene.colour, s.value) {
-                (Some(scale), Some(v)) => value(scale, v),
+                (Some(scale), Some(v)) => hex(scale.colour(v)),
                 _ => hex(PLAIN),
             };
             // what is not pointed at steps back

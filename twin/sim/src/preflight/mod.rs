@@ -33,7 +33,7 @@ use crate::collision::{self, Nearest};
 use crate::deposit::{self, Contact, Deposit};
 use crate::finding::{Finding, Findings, Scores, Verdict};
 use crate::growth::{self, Growth, Printed};
-use crate::motion::{self, Motion, StrandMotion};
+use crate::motion::{self, MapOf, Motion, StrandMotion};
 use crate::structure::SolveError;
 use crate::toolpath::{self, Path};
 
@@ -120,6 +120,17 @@ impl Preflight {
     /// Score of the job and of each family.
     pub fn scores(&self) -> Scores {
         self.scores
+    }
+
+    /// What a spin map asks of.
+    pub fn map_of(&self) -> MapOf<'_> {
+        MapOf {
+            job: &self.job,
+            paths: &self.paths,
+            motion: &self.motion,
+            deposit: &self.deposit,
+            contacts: &self.contacts,
+        }
     }
 
     /// Whether anything stops the job.

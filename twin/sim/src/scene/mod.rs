@@ -4,6 +4,7 @@
 //! Nothing here judges or computes: the scene is a copy for the eye, in metres.
 
 pub mod cast;
+pub mod colours;
 pub mod solid;
 #[cfg(test)]
 mod tests;
