@@ -2,6 +2,8 @@
 //!
 //! By the card (lavapipe where there is no other) with the adapter kept open, and by rays.
 
+#![allow(missing_docs, clippy::print_stdout)] // made by criterion's macros; says who drew
+
 use std::f64::consts::TAU;
 use std::time::Duration;
 

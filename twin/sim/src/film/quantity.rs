@@ -159,6 +159,8 @@ fn scale(job: &Job, strands: &[FilmStrand], total_s: f64, quantity: Quantity) ->
         Quantity::Clearance => (low.max(-limits.clearance_m).min(0.0), 2.0 * limits.clearance_m),
         Quantity::Utilisation => (0.0, high.clamp(0.01, 1.5)),
         Quantity::Displacement | Quantity::Age | Quantity::Cure => (0.0, high),
+        // what is even must look even
+        Quantity::Speed | Quantity::BeadWidth => (low.min(0.8 * high), high),
         _ => (low, high),
     };
     let [low, high] = [low, high].map(|value| quantity.on_screen(value));
