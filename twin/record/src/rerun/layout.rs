@@ -11,7 +11,8 @@ use rerun::blueprint::{
     Spatial3DView, StateTimelineView, Tabs, TextDocumentView, TextLogView, TimePanel,
     TimeSeriesView, Vertical,
 };
-use rerun::external::re_sdk_types::blueprint::archetypes::{Background, EyeControls3D};
+use rerun::datatypes::{TimeInt, TimeRange, TimeRangeBoundary};
+use rerun::external::re_sdk_types::blueprint::archetypes::{Background, EyeControls3D, TimeAxis};
 use rerun::{AsComponents, EntityPath};
 use sim::film::{Film, Trace};
 use sim::pose::Vector;
@@ -40,7 +41,8 @@ pub(super) fn layout(film: &Film, traces: &[Trace], has_pictures: bool) -> Layou
         more.extend(property(view, "Background", Box::new(ground)));
     }
     more.extend(eye(film).and_then(|eye| property(&part, "EyeControls3D", Box::new(eye))));
-    let blueprint = blueprint([part, cell], traces, has_pictures);
+    let plots = plot_tabs(film, traces, &mut more);
+    let blueprint = blueprint([part, cell], plots, has_pictures);
     Layout { blueprint, more }
 }
 
@@ -70,13 +72,16 @@ fn eye(film: &Film) -> Option<EyeControls3D> {
     Some(eye)
 }
 
-fn blueprint(spaces: [ContainerLike; 2], traces: &[Trace], has_pictures: bool) -> Blueprint {
+fn blueprint(
+    spaces: [ContainerLike; 2],
+    plots: Vec<ContainerLike>,
+    has_pictures: bool,
+) -> Blueprint {
     let seen: ContainerLike = Tabs::new(spaces).into();
     let state = StateTimelineView::new("What the arm does").with_origin("/state").into();
     let left = Vertical::new([seen, state]).with_row_shares(vec![5.0, 1.0]);
     let mut right = Vec::new();
     let mut shares = Vec::new();
-    let plots = plot_tabs(traces);
     if !plots.is_empty() {
         right.push(Tabs::new(plots).into());
         shares.push(3.0);
@@ -115,8 +120,12 @@ fn cell_view() -> ContainerLike {
     Spatial3DView::new("Cell").with_origin("/world").into()
 }
 
-/// A tab for each group of plots that there is anything in.
-fn plot_tabs(traces: &[Trace]) -> Vec<ContainerLike> {
+/// A tab for each group of plots that there is anything in; each plot shows the whole program.
+fn plot_tabs(
+    film: &Film,
+    traces: &[Trace],
+    more: &mut Vec<(EntityPath, Box<dyn AsComponents>)>,
+) -> Vec<ContainerLike> {
     let mut plots: Vec<Plot> = Vec::new();
     for trace in traces {
         let plot = plot_of(trace.of);
@@ -124,13 +133,18 @@ fn plot_tabs(traces: &[Trace]) -> Vec<ContainerLike> {
             plots.push(plot);
         }
     }
+    let end = TimeRangeBoundary::Absolute(TimeInt((film.total_s.clamp(1e-3, 1e8) * 1e9) as i64));
+    let whole = TimeRange { start: TimeRangeBoundary::Absolute(TimeInt(0)), end };
     let tab = |name: &str| {
         let views: Vec<ContainerLike> = plots
             .iter()
             .filter(|plot| plot.tab == name)
             .map(|plot| {
                 let origin = format!("/plots/{}", plot.name);
-                TimeSeriesView::new(plot.title).with_origin(origin).into()
+                let view = TimeSeriesView::new(plot.title).with_origin(origin).into();
+                let axis = TimeAxis::new().with_view_range(whole);
+                more.extend(property(&view, "TimeAxis", Box::new(axis)));
+                view
             })
             .collect();
         (!views.is_empty()).then(|| Vertical::new(views).with_name(name).into())

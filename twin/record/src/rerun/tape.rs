@@ -43,10 +43,11 @@ impl Tape {
         Ok(tape)
     }
 
-    /// The layout as the viewer's default: a layout of the user's own stays.
+    /// The layout, to be shown at once. As a mere default it would lose to what the viewer makes up from the first data that
+    /// it sees, and to the layout of the job before.
     fn lay_out(&self, layout: &Layout) -> Result<(), RecordError> {
         let (draft, stored) = builder().memory().map_err(packing)?;
-        let activation = BlueprintActivation { make_active: false, make_default: true };
+        let activation = BlueprintActivation { make_active: true, make_default: true };
         layout.blueprint.send(&draft, activation).map_err(packing)?;
         for message in stored.take().into_iter().filter(|message| message.store_id().is_blueprint())
         {

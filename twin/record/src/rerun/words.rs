@@ -7,7 +7,6 @@ use crate::RecordError;
 use crate::paint::{self, Rgb};
 use rerun::{EncodedImage, StateChange, StateConfiguration, TextDocument, TextLog, TextLogLevel};
 use sim::film::Film;
-use sim::finding::Phase;
 use sim::scene::MarkSeverity;
 
 /// Lines of each log.
@@ -50,7 +49,7 @@ fn states(film: &Film) -> Vec<(f64, &'static str)> {
         }
     };
     for (k, leg) in film.legs.iter().enumerate().take(STATES_MAX) {
-        change(leg.from_s, word(leg.phase));
+        change(leg.from_s, leg.phase.word());
         match film.legs.get(k + 1) {
             Some(next) if next.from_s > leg.to_s + GAP_S => change(leg.to_s, "wait"),
             Some(_) => {}
@@ -58,10 +57,6 @@ fn states(film: &Film) -> Vec<(f64, &'static str)> {
         }
     }
     out
-}
-
-fn word(phase: Phase) -> &'static str {
-    phase.word()
 }
 
 /// Findings, and the strands as they begin.

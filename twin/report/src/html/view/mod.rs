@@ -13,8 +13,7 @@ mod strands;
 #[cfg(test)]
 mod tests;
 
-use super::base64::encode as base64;
-use blob::Blob;
+use blob::{Blob, base64};
 use keys::Keys;
 use serde_json::{Map, Value, json};
 use sim::film::{Film, FilmStrand, Player};
