@@ -218,8 +218,8 @@ async function deepLinks(url) {
     check("#t= goes to a time", await hears(page, "twin:time", `Math.abs(event.time_s - ${Math.min(1.5, total)}) < 1e-6`));
   }
   await context.close();
-  const other = await open(`${url}#finding-0`);
-  if (await other.page.$("#finding-0")) {
+  const other = await open(`${url}#finding-1`);
+  if (await other.page.$("#finding-1")) {
     check("#finding- chooses it", await hears(other.page, "twin:finding", "event.index === 0"));
     check("#finding- opens its row", await other.page.$eval("details.finding", (row) => row.open));
   }

@@ -7,7 +7,9 @@ use sim::scene::{BedShape, Body, Scene};
 use sim::shape::Shape;
 
 use super::parts;
-use super::story::{Story, body_colour};
+use sim::scene::colours::of_kind;
+
+use super::story::Story;
 use super::wire::Proto;
 
 // fields of foxglove.SceneEntity
@@ -35,7 +37,7 @@ pub(super) fn update(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<u8> {
     }
     let plate = BedShape { pose: Pose::identity(), size_m: story.film.bed_size_m }.body();
     if story.film.bed_size_m.iter().all(|side| *side > 0.0) {
-        let colour = parts::colour(body_colour(plate.kind), 1.0);
+        let colour = parts::colour(of_kind(plate.kind), 1.0);
         let bed = parts::entity(ns, "bed", "bed");
         entities.push(with_shape(bed, &plate.shape, &Pose::identity(), &colour));
     }
@@ -43,7 +45,7 @@ pub(super) fn update(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<u8> {
 }
 
 fn with_shapes(entity: Proto, body: &FilmBody, frame_from_body: &Pose) -> Proto {
-    let colour = parts::colour(body_colour(body.kind), 1.0);
+    let colour = parts::colour(of_kind(body.kind), 1.0);
     let add = |entity, shape| with_shape(entity, shape, frame_from_body, &colour);
     body.shapes.iter().fold(entity, add)
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sim::film::{Film, FilmLeg, Player, Quantity, Trace, TraceOf, traces};
 use sim::finding::{Finding, Severity};
 use sim::preflight::Preflight;
-use sim::scene::{BodyKind, MarkSeverity};
+use sim::scene::{MarkSeverity, colours};
 
 use super::agenda::{Due, Item, agenda};
 use super::frames::Frames;
@@ -191,27 +191,14 @@ fn at(trace: &Trace, time_s: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// Colour of a kind of body, sRGB.
-pub(crate) fn body_colour(kind: BodyKind) -> u32 {
-    match kind {
-        BodyKind::Arm => 0xE98A3A,
-        BodyKind::Tool => 0x3E4852,
-        BodyKind::Nozzle => 0xC79A3B,
-        BodyKind::Bed => 0xB8C2CC,
-        BodyKind::Obstacle => 0x8FA9C4,
-        BodyKind::Form => 0xD8CDB8,
-        BodyKind::OtherArm => 0xA7AFB8,
-    }
-}
-
 /// Colour of strands, sRGB.
-pub(crate) const STRAND_COLOUR: u32 = 0xB9B2A6;
+pub(crate) const STRAND_COLOUR: u32 = sim::scene::colours::PLAIN;
 
 /// Colour of a finding, sRGB.
 pub(crate) fn severity_colour(severity: Severity) -> u32 {
     match severity {
-        Severity::Warning => 0xB45309,
-        Severity::Error => 0xC81E1E,
+        Severity::Warning => colours::of_severity(MarkSeverity::Warning),
+        Severity::Error => colours::of_severity(MarkSeverity::Error),
     }
 }
 

@@ -262,7 +262,9 @@ fn a_full_disk_is_an_error_wherever_it_fills() {
         let mut disk = Full { inner: Cursor::new(Vec::new()), room };
         let written = write_to(checked, &film, Profile::Foxglove, &[], &mut disk);
         let Err(RecordError::Io(error)) = written else { panic!("{room}: {written:?}") };
-        assert_eq!(error.kind(), std::io::ErrorKind::StorageFull);
+        // the library that compresses tells some of them again in words of its own
+        let wanted: std::io::Error = std::io::ErrorKind::StorageFull.into();
+        assert!(error.to_string().contains(&wanted.to_string()), "{room}: {error}");
     }
 }
 

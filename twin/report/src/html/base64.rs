@@ -1,4 +1,4 @@
-//! Base64 (RFC 4648) for data URIs.
+//! Base64 (RFC 4648) for data URIs and the 3-D view.
 
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 

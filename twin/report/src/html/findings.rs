@@ -8,6 +8,7 @@ use super::album::{Album, PictureKind};
 use super::course::moment;
 use super::source::Lines;
 use super::{Extras, name, sentence, why};
+use crate::line::allowed_words;
 use crate::parts::{Finding, Phase, Report, Severity};
 use crate::plots::text::{LONGEST_ID, escaped};
 use crate::quantity::{Unit, against, counted};
@@ -175,8 +176,13 @@ fn more(
         format!("<h3>Why</h3><p class=\"why\"><a href=\"#why-{code}\">What {code} measures, its limit, what mends it</a></p>")
     });
     let class = if picture.is_empty() { "more" } else { "more seen" };
+    let allowed = finding.allowed.as_ref().map_or(String::new(), |allowed| {
+        format!("<p class=\"allowed\"><b>Let pass:</b> {}</p>", sentence(&allowed_words(allowed)))
+    });
+    // as people count, and as the files and `twin render` do
+    let number = index + 1;
     format!(
-        "<div class=\"{class}\" id=\"finding-{index}\">{picture}<div><p class=\"message\">{}</p>\
+        "<div class=\"{class}\" id=\"finding-{number}\">{picture}<div><p class=\"message\">{}</p>{allowed}\
          <h3>What to do</h3><p>{}</p>{}{source}{why}</div></div>",
         sentence(&finding.message),
         sentence(&finding.hint),

@@ -82,7 +82,7 @@ fn a_page_has_all_its_parts_and_fetches_nothing() {
     assert!(page.contains("NOT FEASIBLE"));
     assert!(
         page.contains(
-            "Decided by <a href=\"#finding-0\">C201</a> nozzle too near printed strands: 0.31 mm"
+            "Decided by <a href=\"#finding-1\">C201</a> nozzle too near printed strands: 0.31 mm"
         ),
         "the worst error"
     );
@@ -259,6 +259,7 @@ fn the_markdown_of_pages_becomes_html() {
     );
     for code in sim::finding::Code::ALL {
         let html = markup(code.page());
+        assert!(!html.contains("```") && !html.contains("<pre tabindex=\"0\">text"), "{html}");
         assert!(html.contains("<b>Measured.</b>") && !html.contains("**"), "{}", code.as_str());
     }
 }

@@ -79,7 +79,7 @@ fn lines(group: &[&Trace], course: &Course, extras: &Extras<'_>) -> Vec<Line> {
         .map(|trace| {
             let name = match trace.of {
                 TraceOf::Joint(k) => extras.film.and_then(|film| film.joints.get(k)).map_or_else(
-                    || format!("joint {}", k + 1),
+                    || format!("joint {}", k.saturating_add(1)),
                     |joint| cleaned(&joint.name, LONGEST_ID),
                 ),
                 _ => look(trace.of).title.to_owned(),

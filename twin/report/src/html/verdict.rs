@@ -51,7 +51,7 @@ fn decided(report: &Report) -> String {
         let time =
             worst.time_s.map_or(String::new(), |time_s| format!(", at {}", moment(Some(time_s))));
         let link = if index < super::findings::ROWS {
-            format!("<a href=\"#finding-{index}\">{}</a>", sentence(&worst.code))
+            format!("<a href=\"#finding-{}\">{}</a>", index + 1, sentence(&worst.code))
         } else {
             sentence(&worst.code)
         };

@@ -28,10 +28,28 @@ fn page(code: Code) -> String {
     )
 }
 
-/// The little Markdown that pages use: paragraphs, lists, `**bold**`, code in back ticks. The heading is left out.
+/// The little Markdown that pages use: paragraphs, lists, `**bold**`, code in back ticks, laws between fences. The heading
+/// is left out.
 pub(super) fn markup(page: &str) -> String {
+    let parts = page.split("```").enumerate();
+    let html = parts.map(|(k, part)| match k % 2 {
+        0 => paragraphs(part),
+        _ => law(part),
+    });
+    html.collect()
+}
+
+/// What stands between fences, as it stands; the first line is the fence's own.
+fn law(fenced: &str) -> String {
+    let lines = fenced.split_once('\n').map_or("", |(_, lines)| lines);
+    let shown: Vec<String> =
+        lines.trim_end().lines().map(|line| escaped(line, usize::MAX)).collect();
+    format!("<pre tabindex=\"0\">{}</pre>", shown.join("\n"))
+}
+
+fn paragraphs(text: &str) -> String {
     let mut html = String::new();
-    for block in page
+    for block in text
         .split("\n\n")
         .map(str::trim)
         .filter(|block| !block.is_empty() && !block.starts_with('#'))

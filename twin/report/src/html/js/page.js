@@ -37,12 +37,12 @@ addEventListener("afterprint", () => {
   shut.forEach((part) => { part.open = false; });
 });
 
-// Deep links: #finding-3, #t=12.5, #why-C201.
+// Deep links: #finding-3 (the first is 1, as in `twin render --view finding:1`), #t=12.5, #why-C201.
 function follow() {
   const hash = location.hash.slice(1);
   const finding = /^finding-(\d+)$/.exec(hash);
   const time = /^t=(\d+(?:\.\d+)?)$/.exec(hash);
-  if (finding) choose(Number(finding[1]), true);
+  if (finding) choose(Number(finding[1]) - 1, true);
   else if (time) seek(Number(time[1]));
   else if (/^why-\w+$/.test(hash)) {
     const page = byId(hash);

@@ -1,4 +1,4 @@
-//! Named arrays of numbers in one run of bytes, and base64.
+//! Named arrays of numbers in one run of bytes.
 
 use serde_json::{Map, Value, json};
 
@@ -70,19 +70,4 @@ impl Blob {
         all.extend_from_slice(&self.bytes);
         all
     }
-}
-
-/// Base64 with padding (RFC 4648, section 4).
-pub(super) fn base64(bytes: &[u8]) -> String {
-    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let at = |k: usize| u32::from(three.get(k).copied().unwrap_or(0));
-        let bits = at(0) << 16 | at(1) << 8 | at(2);
-        for k in 0..4 {
-            let sign = SIGNS[(bits >> (18 - 6 * k)) as usize & 63];
-            text.push(if k <= three.len() { char::from(sign) } else { '=' });
-        }
-    }
-    text
 }

@@ -13,7 +13,8 @@ mod strands;
 #[cfg(test)]
 mod tests;
 
-use blob::{Blob, base64};
+use super::base64::encode as base64;
+use blob::Blob;
 use keys::Keys;
 use serde_json::{Map, Value, json};
 use sim::film::{Film, FilmStrand, Player};

@@ -1,6 +1,5 @@
 mod sample;
 
-use super::blob::base64;
 use super::strands::{OVER, TOP, UNDER, UNKNOWN, level};
 use super::{SCRIPT, STYLE, View3d, section};
 use proptest::prelude::*;
@@ -154,16 +153,6 @@ fn script_and_style_can_stand_in_a_page() {
 fn the_same_film_gives_the_same_bytes() {
     let html = || section(&View3d::of(&film(5, 20, "s"), &keys(9), 30_000));
     assert_eq!(html(), html());
-}
-
-#[test]
-fn base64_is_that_of_the_standard() {
-    // RFC 4648, section 10
-    let vectors =
-        [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")];
-    for (plain, coded) in vectors {
-        assert_eq!(base64(plain.as_bytes()), coded);
-    }
 }
 
 fn any_number() -> impl Strategy<Value = f64> {
