@@ -1,5 +1,6 @@
 #![allow(clippy::print_stderr)] // a test that skips says why
 
+mod animation;
 mod row;
 
 use super::*;
