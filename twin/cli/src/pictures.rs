@@ -21,7 +21,7 @@ const ROW_PX: (u32, u32) = (1600, 1100);
 /// Of a finding from near by.
 const FINDING_PX: (u32, u32) = (800, 500);
 /// Of a picture of the film strip.
-const STRIP_PX: (u32, u32) = (640, 400);
+const STRIP_PX: (u32, u32) = (480, 300);
 /// Findings drawn from near by: the first of each code, then more.
 const FINDINGS_MAX: usize = 6;
 /// Pictures of the film strip.

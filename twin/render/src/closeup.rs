@@ -29,7 +29,7 @@ pub(crate) fn close_up(
 ) -> Result<Picture, RenderError> {
     let near = scene.marks.first().map(|mark| around(scene, mark.at));
     let fit = near.map_or(Fit::Part, Fit::Box);
-    let camera = near.map_or(Camera::Isometric, |near| best_side(scene, &near, engine));
+    let camera = near.map_or(Camera::Isometric, |near| best_side(scene, &near));
     let view = View { size_px, camera, fit, ghost_arm: true };
     let mut picture = overlay::picture(scene, &view, engine)?;
     let (_, projection) = picture.views[0];
@@ -53,10 +53,9 @@ fn outlined(scene: &Scene, id: HitId) -> bool {
 }
 
 /// The side that shows the place itself, and of these the one that shows most of what is outlined.
-fn best_side(scene: &Scene, near: &Bounds, engine: &Engine) -> Camera {
-    let by_rays = Engine::Cpu { because: None };
+fn best_side(scene: &Scene, near: &Bounds) -> Camera {
     // a few thousand rays are cheaper than a pass of a software card
-    let _ = engine;
+    let by_rays = Engine::Cpu { because: None };
     let solid = |id: HitId| {
         outlined(scene, id) || !matches!(id, HitId::Body(i) if shade::is_ghost(scene, i))
     };
