@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use parry3d::math::Vector as Vector32;
 use parry3d::shape::SharedShape;
 
 use crate::parry;
@@ -76,7 +77,7 @@ impl Shape {
             }
             Self::Cone { .. } | Self::Box { .. } | Self::Hull { .. } => {
                 let points: Vec<_> = self.corners().iter().map(parry::point).collect();
-                SharedShape::convex_hull(&points).unwrap_or_else(|| self.diagonal_capsule())
+                hull_of(&points).unwrap_or_else(|| self.diagonal_capsule())
             }
             Self::Mesh { vertices, triangles } => {
                 let points = vertices.iter().map(parry::point).collect();
@@ -127,4 +128,17 @@ impl Shape {
         let radius = parry::length(((high - low).norm() / 2.0).max(1e-6));
         SharedShape::capsule(parry::point(&centre), parry::point(&centre), radius)
     }
+}
+
+/// The hull of points, with a skin where parry drops a corner that is nearly on a face (by up to some tenths of a
+/// millimetre): as thick as the corner lies outside what is left.
+fn hull_of(points: &[Vector32]) -> Option<SharedShape> {
+    let hull = SharedShape::convex_hull(points)?;
+    let kept = hull.as_convex_polyhedron()?.points();
+    let lost = points.iter().filter(|point| !kept.contains(point));
+    let lost = lost.map(|point| hull.distance_to_local_point(*point, true)).fold(0.0, f32::max);
+    if lost < parry::length(parry::ROUNDING_M / 4.0) {
+        return Some(hull);
+    }
+    SharedShape::round_convex_hull(points, lost)
 }
