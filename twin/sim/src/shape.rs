@@ -140,5 +140,6 @@ fn hull_of(points: &[Vector32]) -> Option<SharedShape> {
     if lost < parry::length(parry::ROUNDING_M / 4.0) {
         return Some(hull);
     }
-    SharedShape::round_convex_hull(points, lost)
+    // the search may stop short of the distance by its slack
+    SharedShape::round_convex_hull(points, lost * (1.0 + parry::SLACK as f32))
 }
