@@ -15,6 +15,9 @@ const POINTS: usize = 5 * PANELS;
 /// `w L²/M_p` that a beam clamped at one end and hinged at the other carries: `2 (3 + 2√2)`.
 const PROPPED: f64 = 11.656_854_249_492_381;
 
+/// Times of recovery after which little of it is left to come: an integral over ages is parted there.
+const RECOVERIES: f64 = 3.0;
+
 /// A gel as it leaves the nozzle, its yield stress coming back with age: [`yield_at_age_pa`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreshGel {
@@ -159,7 +162,7 @@ impl GelStrand {
             && (0.0..=1.0).contains(&self.gel.start)
             && (self.gel.start >= 1.0 || self.gel.structure.recovery_s > 0.0)
             && finite.iter().all(|value| value.is_finite())
-            && yield_pa >= 0.0
+            && [yield_pa, self.speed_m_s, self.until_s].iter().all(|value| *value >= 0.0)
     }
 
     /// All of it at an age, s.
@@ -179,8 +182,7 @@ impl GelStrand {
         }
         let yields_pa = moment_n_m / plastic_moment_n_m(1.0, self.diameter_m);
         let to_s = self.until_s.min(self.gel.age_s(yields_pa));
-        let rate = |age_s| bend.rate(moment_n_m, plastic_n_m(age_s));
-        gauss(from_s, to_s, rate)
+        self.by_age(from_s, to_s, |age_s| bend.rate(moment_n_m, plastic_n_m(age_s)))
     }
 
     fn hinged_zone_m(&self, length_m: f64) -> f64 {
@@ -198,7 +200,13 @@ impl GelStrand {
         let speed = |age_s: f64| {
             Hinged::new(self, span_m, |_| age_s, |x_m| x_m).map_or(0.0, |hinged| hinged.greatest())
         };
-        if self.gel.start >= 1.0 { speed(0.0) * to_s } else { gauss(0.0, to_s, speed) }
+        if self.gel.start >= 1.0 { speed(0.0) * to_s } else { self.by_age(0.0, to_s, speed) }
+    }
+
+    /// Over ages: first those in which the yield stress comes back, then the rest.
+    fn by_age(&self, from_s: f64, to_s: f64, rate: impl Fn(f64) -> f64) -> f64 {
+        let back_s = (from_s + RECOVERIES * self.gel.structure.recovery_s).min(to_s);
+        gauss(from_s, back_s, &rate) + gauss(back_s, to_s, &rate)
     }
 }
 

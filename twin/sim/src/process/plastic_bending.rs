@@ -153,7 +153,7 @@ impl Bend {
 }
 
 /// Root of a falling function between two ends: false position, the end that stays weighed less each time, until a
-/// step is small over the root; sixty at most.
+/// step is small over the root; sixty at most. An end where it is zero already is the root.
 pub(super) fn falling_root(
     mut low: f64,
     mut high: f64,
@@ -161,7 +161,10 @@ pub(super) fn falling_root(
     value: impl Fn(f64) -> f64,
 ) -> f64 {
     let (mut above, mut below) = (value(low), value(high));
-    let (mut root, mut kept) = (0.5 * (low + high), 0);
+    if above == 0.0 || below == 0.0 {
+        return if above == 0.0 { low } else { high };
+    }
+    let (mut root, mut kept) = (f64::INFINITY, 0);
     for _ in 0..60 {
         let secant = (low * below - high * above) / (below - above);
         let next = if secant > low && secant < high { secant } else { 0.5 * (low + high) };

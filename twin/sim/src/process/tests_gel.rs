@@ -201,6 +201,15 @@ fn an_index_near_zero_sags_no_negative_number() {
     }
 }
 
+/// Its youngest section alone yields, and the clamp not: no force at the hinge turns anything, the greatest among them.
+#[test]
+fn a_zone_that_turns_nowhere_does_not_sag() {
+    let fluid = HerschelBulkley { yield_pa: 229.5, consistency_pa_sn: 0.1, index: 0.3 };
+    let gel = recovering(fluid, 0.332_672_528_774_477_45, 1.315_681_543_383_456);
+    let strand = GelStrand { until_s: 2.181_341_942_222_628_6, ..strand(gel, 0.05) };
+    assert_eq!(strand.hinged_sag_m(), 0.0);
+}
+
 proptest! {
     #[test]
     fn more_yield_stress_never_more_sag(
