@@ -113,18 +113,24 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Refusal> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    // Asked of `path`: what `/dev/stdout` leads to through a pipe has no name of its own.
-    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+    if is_stream(path) {
         return File::options().write(true).open(path)?.write_all(bytes);
     }
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     whole_or_none(&temporary(&target, "tmp"), &target, |temporary| {
         File::create(temporary).and_then(|mut file| file.write_all(bytes))
     })
 }
 
+/// Whether a device or a pipe is at a path, or at the end of its links. Asked of the path itself: what `/dev/stdout` leads
+/// to through a pipe has no name of its own.
+fn is_stream(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
 /// A large file that `write` makes piece by piece at a temporary name beside its own, `.NAME.PID.part`: where the machine
-/// stops, what is there by then can still be read by who recovers recordings.
+/// stops, what is there by then can still be read by who recovers recordings. Devices and pipes are refused: who writes may
+/// want to go back in the file.
 ///
 /// # Errors
 /// One sentence of `write`, or of the rename.
@@ -132,6 +138,11 @@ pub(crate) fn write_by(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), String>,
 ) -> Result<(), Refusal> {
+    if is_stream(path) {
+        let why = "recordings go to files, and this is a device or a pipe";
+        return Err(Refusal::whole(path.display().to_string(), why)
+            .hint("record to a file, and read it when the program is done"));
+    }
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let written = whole_or_none(&temporary(&target, "part"), &target, |temporary| {
         write(temporary).map_err(io::Error::other)

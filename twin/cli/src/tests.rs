@@ -131,6 +131,16 @@ fn a_pipe_stays_a_pipe_and_gets_the_bytes() {
 
 #[cfg(unix)]
 #[test]
+fn a_recording_does_not_take_the_place_of_a_device() {
+    let link = folder("device").join("run.mcap");
+    std::os::unix::fs::symlink("/dev/null", &link).expect("linked");
+    let refused = crate::files::write_by(&link, |_| unreachable!("nothing is written"));
+    assert!(refused.expect_err("refused").sentences().contains("a device or a pipe"));
+    assert!(std::fs::symlink_metadata(&link).expect("there").is_symlink());
+}
+
+#[cfg(unix)]
+#[test]
 fn a_link_stays_a_link_and_what_it_names_is_written() {
     let folder = folder("link");
     let (link, file) = (folder.join("link"), folder.join("file"));
