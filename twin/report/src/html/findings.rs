@@ -9,7 +9,7 @@ use super::course::moment;
 use super::source::Lines;
 use super::{Extras, name, sentence, why};
 use crate::line::allowed_words;
-use crate::parts::{Finding, Phase, Report, Severity};
+use crate::parts::{Finding, Report, Severity};
 use crate::plots::text::{LONGEST_ID, escaped};
 use crate::quantity::{Unit, against, counted};
 use crate::results::Range;
@@ -95,10 +95,7 @@ fn row(
     extras: &Extras<'_>,
     album: &Album<'_>,
 ) -> String {
-    let (class, mark) = match finding.severity {
-        Severity::Error => ("error", "■"),
-        Severity::Warning => ("warning", "▲"),
-    };
+    let (class, mark) = sign(finding.severity);
     let known = Code::from_name(&finding.code);
     let family = known.map_or(String::new(), |code| code.family().letter().to_string());
     let code = known.map_or("", Code::as_str);
@@ -119,6 +116,15 @@ fn row(
     )
 }
 
+/// Class and sign of a severity: told by shape as well as by colour.
+pub(super) fn sign(severity: Severity) -> (&'static str, &'static str) {
+    let mark = match severity {
+        Severity::Error => "■",
+        Severity::Warning => "▲",
+    };
+    (severity.word(), mark)
+}
+
 /// Measured against its limit, without the interval.
 fn short_value(finding: &Finding) -> String {
     if against(finding).is_none() {
@@ -129,17 +135,9 @@ fn short_value(finding: &Finding) -> String {
     let word = if bound == Some(sim::finding::Bound::Lower) { "min" } else { "max" };
     format!(
         "{} <span class=\"soft\">{word} {}</span>",
-        told(finding, unit.show(finding.measured)),
-        told(finding, unit.show(finding.limit))
+        unit.show(finding.measured),
+        unit.show(finding.limit)
     )
-}
-
-/// With the unit where screens have none of their own for it.
-fn told(finding: &Finding, shown: String) -> String {
-    match finding.unit.as_str() {
-        "N" if shown != "no end" => shown + " N",
-        _ => shown,
-    }
 }
 
 fn place(finding: &Finding) -> String {
@@ -148,7 +146,7 @@ fn place(finding: &Finding) -> String {
     parts.extend(site.strand.as_ref().map(|strand| name(strand)));
     parts.extend(site.at_m.map(|at_m| format!("at {}", Unit::Millimetre.show(Some(at_m)))));
     parts.extend(site.stage.map(|stage| format!("after {}", counted(stage, "strand"))));
-    parts.extend(site.phase.map(|phase| phase_word(phase).to_owned()));
+    parts.extend(site.phase.map(|phase| phase.word().to_owned()));
     if parts.is_empty() { "whole job".to_owned() } else { parts.join(", ") }
 }
 
@@ -201,10 +199,10 @@ fn facts(finding: &Finding) -> String {
     let mut facts: Vec<(&str, String)> = Vec::new();
     if against(finding).is_some() {
         let range = Range { value: finding.measured, low: finding.low, high: finding.high };
-        facts.push(("Measured", told(finding, unit.show_range(&range))));
+        facts.push(("Measured", unit.show_range(&range)));
         let bound = Code::from_name(&finding.code).map(Code::bound);
         let word = if bound == Some(sim::finding::Bound::Lower) { "at least" } else { "at most" };
-        facts.push(("Limit", format!("{word} {}", told(finding, unit.show(finding.limit)))));
+        facts.push(("Limit", format!("{word} {}", unit.show(finding.limit))));
     }
     if !site.bodies.is_empty() {
         let bodies: Vec<String> = site.bodies.iter().take(BODIES).map(|body| name(body)).collect();
@@ -226,14 +224,4 @@ fn facts(finding: &Finding) -> String {
         .map(|(name, value)| format!("<div><dt>{name}</dt><dd>{value}</dd></div>"))
         .collect();
     format!("<dl class=\"facts\">{rows}</dl>")
-}
-
-fn phase_word(phase: Phase) -> &'static str {
-    match phase {
-        Phase::Approach => "approach",
-        Phase::Print => "print",
-        Phase::Dwell => "dwell",
-        Phase::Retract => "retract",
-        Phase::Transit => "transit",
-    }
 }
