@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Baseline, Provenance, Report, Severity, StepTime, Timing};
 use sim::film::Film;
-use sim::preflight::{Preflight, Step, preflight};
+use sim::preflight::{Step, preflight};
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
 use crate::outputs::{Form, Saved, make_folder, today};
-use crate::page::page;
+use crate::page::Page;
 use crate::pictures::Album;
 use crate::recordings::{McapProfile, Recorder, Recording};
 use crate::refusal::{Failure, Refusal};
@@ -100,7 +100,7 @@ impl Check {
         });
         let checked = checked.map_err(|error| {
             bar.finish_and_clear();
-            Refusal::whole(&source.name, format!("the frame cannot be solved: {error}"))
+            Refusal::unsolved(&source.name, &error)
         })?;
         clock.stop();
 
@@ -109,7 +109,8 @@ impl Check {
             Report::new(&checked, &source, Provenance::new(inputs, None), clock.timing());
         let told = report::apply_allowances(&mut report, &allowances, &today());
         // the answer is safe before anything is drawn
-        self.write(&checked, &film, &report, &source, None)?;
+        let page = (!self.no_pages).then(|| Page::new(&checked, &film, &source));
+        self.write(&report, page.as_ref(), None)?;
 
         let album = (!self.no_render).then(|| {
             clock.step("drawing");
@@ -135,7 +136,7 @@ impl Check {
             report.provenance.drawn_by = Some(album.drawn_by.clone());
         }
         report.timing = clock.timing();
-        let mut written = self.write(&checked, &film, &report, &source, album.as_ref())?;
+        let mut written = self.write(&report, page.as_ref(), album.as_ref())?;
         written.extend(recorded);
 
         for sentence in told {
@@ -149,18 +150,16 @@ impl Check {
     /// Everything but pictures and recordings.
     fn write(
         &self,
-        checked: &Preflight,
-        film: &Film,
         report: &Report,
-        source: &slam::Source,
+        page: Option<&Page<'_>>,
         album: Option<&Album>,
     ) -> Result<Written, Refusal> {
         let mut written = Written::new();
         let json = self.out.join("report.json");
         files::write_whole(&json, report::to_json(report).as_bytes())?;
-        if !self.no_pages {
+        if let Some(page) = page {
             let html = self.out.join("report.html");
-            files::write_whole(&html, page(checked, film, report, source, album).as_bytes())?;
+            files::write_whole(&html, page.html(report, album).as_bytes())?;
             written.push(("report", html.display().to_string()));
             let strands = self.out.join("strands.html");
             files::write_whole(&strands, report::strands_page(report).as_bytes())?;

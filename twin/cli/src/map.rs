@@ -1,6 +1,5 @@
 //! `twin map`: which orientations a strand could have been printed in.
 
-use std::io::Cursor;
 use std::path::PathBuf;
 
 use sim::motion::{Across, MapState, SpinMap, spin_map};
@@ -8,6 +7,7 @@ use sim::preflight::preflight;
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
+use crate::pictures::png;
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
 use crate::{FEASIBLE, files};
@@ -53,9 +53,8 @@ impl Map {
         let Loaded { source, job, .. } = load::job(&self.job, &library, screen)?;
         let strand = self.strand(&job, &source.name)?;
         let id = job.strands[strand].id.clone();
-        let checked = preflight(job, |_| {}).map_err(|error| {
-            Refusal::whole(&source.name, format!("the frame cannot be solved: {error}"))
-        })?;
+        let checked =
+            preflight(job, |_| {}).map_err(|error| Refusal::unsolved(&source.name, &error))?;
         let across = match self.across {
             Vary::Spin => Across::Spin,
             Vary::Tilt => Across::Tilt,
@@ -73,11 +72,9 @@ impl Map {
         let title = format!("{} · strand {id}", crate::names::clipped(&checked.job().name));
         let picture = render::spin_map(&map, &title, PICTURE_PX)
             .map_err(|error| Refusal::whole(&source.name, error.to_string()))?;
-        let mut png = Cursor::new(Vec::new());
-        picture
-            .write_to(&mut png, image::ImageFormat::Png)
+        let png = png(&picture)
             .map_err(|error| Refusal::whole(&source.name, format!("no picture: {error}")))?;
-        files::write_whole(&self.output, png.get_ref())?;
+        files::write_whole(&self.output, &png)?;
         writeln!(screen.out, "{}", summary(&map))?;
         writeln!(screen.out, "picture  {}", self.output.display())?;
         Ok(FEASIBLE)

@@ -2,7 +2,6 @@
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use image::RgbaImage;
 use render::{Camera, Fit, Picture, Studio, Task, View};
@@ -10,7 +9,7 @@ use sim::film::{Film, FilmStrand, Look, Player, Quantity};
 use sim::finding::{Family, Finding};
 use sim::motion::{Across, spin_map};
 use sim::preflight::{Preflight, deformed, fallen};
-use sim::scene::{MarkSeverity, Scene};
+use sim::scene::Scene;
 
 use crate::files;
 
@@ -64,16 +63,12 @@ pub(crate) struct Album {
     pub(crate) drawn_by: String,
     /// Why something was not drawn.
     pub(crate) missing: Option<String>,
-    /// How long it took, s.
-    pub(crate) took_s: f64,
 }
 
 impl Album {
     /// Draws everything worth a look; each picture is in its file before the next is begun.
     pub(crate) fn of(checked: &Preflight, film: &Film, out: &Path, studio: &mut Studio) -> Album {
-        let begun = Instant::now();
-        let mut album =
-            Album { shots: Vec::new(), drawn_by: String::new(), missing: None, took_s: 0.0 };
+        let mut album = Album { shots: Vec::new(), drawn_by: String::new(), missing: None };
         for (shows, words, task) in wanted(checked, film) {
             let done = studio
                 .draw(&task)
@@ -84,7 +79,6 @@ impl Album {
             }
         }
         album.spin_maps(checked);
-        album.took_s = begun.elapsed().as_secs_f64();
         album
     }
 
@@ -203,14 +197,8 @@ pub(crate) fn finished(film: &Film, player: &Player<'_>, colour: Option<Quantity
 
 /// Findings that have a place, one of each code before a second of any.
 fn pictured(film: &Film) -> Vec<usize> {
-    let mut codes: Vec<&str> = Vec::new();
-    let with_place = (0..film.findings.len()).filter(|&index| film.findings[index].at.is_some());
-    let (first, more): (Vec<usize>, Vec<usize>) = with_place.partition(|&index| {
-        let is_new = !codes.contains(&film.findings[index].code);
-        codes.push(film.findings[index].code);
-        is_new
-    });
-    let mut chosen: Vec<usize> = first.into_iter().chain(more).take(FINDINGS_MAX).collect();
+    let with_place = film.one_of_each_code_first(|finding| finding.at.is_some());
+    let mut chosen: Vec<usize> = with_place.take(FINDINGS_MAX).collect();
     chosen.sort_unstable();
     chosen
 }
@@ -221,11 +209,7 @@ pub(crate) fn finding_scene(film: &Film, player: &Player<'_>, index: usize) -> (
     let time_s = finding.time_s.unwrap_or_else(|| done_s(film));
     let look = Look { finding: Some(index), planned: true, ..Look::default() };
     let scene = film.scene(&player.frame_at(time_s), &look);
-    let severity = match finding.severity {
-        MarkSeverity::Error => "error",
-        MarkSeverity::Warning => "warning",
-        MarkSeverity::Note => "note",
-    };
+    let severity = finding.severity.word();
     let strand = finding.strand.and_then(|order| film.strands.get(order));
     let strand = strand.map_or_else(String::new, |strand| format!(", strand {}", strand.id));
     let words = format!("{} {severity}: {}{strand}, at {time_s:.2} s", finding.code, finding.words);

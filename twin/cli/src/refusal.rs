@@ -2,6 +2,7 @@
 
 use std::io;
 
+use sim::structure::SolveError;
 use slam::{Diagnostic, Source, Span};
 
 /// Why a command has no answer.
@@ -27,6 +28,11 @@ impl Refusal {
     pub(crate) fn whole(name: impl Into<String>, message: impl Into<String>) -> Self {
         let diagnostics = vec![Diagnostic::error(Span::default(), message)];
         Self { source: Source::new(name, ""), diagnostics }
+    }
+
+    /// A job whose frame no solver answers for.
+    pub(crate) fn unsolved(job: &str, error: &SolveError) -> Self {
+        Self::whole(job, format!("the frame cannot be solved: {error}"))
     }
 
     /// Problems of a text.

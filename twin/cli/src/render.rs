@@ -80,9 +80,8 @@ impl Render {
         let library = Library::open(&self.library)?;
         let loaded = load::job(&self.job, &library, screen)?;
         let name = loaded.source.name.clone();
-        let checked = preflight(loaded.job, |_| {}).map_err(|error| {
-            Refusal::whole(&name, format!("the frame cannot be solved: {error}"))
-        })?;
+        let checked =
+            preflight(loaded.job, |_| {}).map_err(|error| Refusal::unsolved(&name, &error))?;
         let film = Film::new(&checked);
         let backend = if self.cpu { render::Backend::Cpu } else { render::Backend::Auto };
         let mut studio = Studio::new(backend, screen.drawer.clone());

@@ -58,7 +58,7 @@ pub fn glb(film: &Film, frame: &Frame, options: GlbOptions) -> Vec<u8> {
         root["children"] = json!(top);
     }
     let root = pack.node(root);
-    let painted = paint::scale_of(film, options.colour);
+    let painted = film.painted_by(options.colour);
     let extras = json!({
         "job": short(&film.job),
         "cell": short(&film.cell),
@@ -70,7 +70,7 @@ pub fn glb(film: &Film, frame: &Frame, options: GlbOptions) -> Vec<u8> {
 
 /// Nodes of the strands, part axes.
 fn strands(film: &Film, frame: &Frame, colour: Option<Quantity>, pack: &mut Pack) -> Vec<usize> {
-    let painted = paint::scale_of(film, colour);
+    let painted = film.painted_by(colour);
     let points: usize = film.strands.iter().map(|strand| strand.points.len()).sum();
     let sides = if points.saturating_mul(8) <= VERTICES_FINE { 8 } else { 4 };
     let look = TubeLook { sides, end_rings: 2 };
@@ -122,14 +122,12 @@ fn add_strand(
 
 /// The points laid by a time, the one that is being laid among them.
 fn laid(strand: &FilmStrand, time_s: f64) -> Vec<Point> {
-    let n = strand.time_s.partition_point(|&at_s| at_s <= time_s).min(strand.points.len());
-    let mut points = strand.points[..n].to_vec();
-    if let (Some(k), Some(next), Some(next_s)) =
-        (n.checked_sub(1), strand.points.get(n), strand.time_s.get(n))
-    {
-        let share = (time_s - strand.time_s[k]) / (next_s - strand.time_s[k]);
-        points.push(strand.points[k] + (next - strand.points[k]) * share);
-    }
+    let (laid, share) = strand.laid(time_s);
+    let all = &strand.points;
+    let last =
+        share.and_then(|share| Some((all.get(laid.checked_sub(1)?)?, all.get(laid)?, share)));
+    let mut points = all[..laid.min(all.len())].to_vec();
+    points.extend(last.map(|(from, to, share)| from + (to - from) * share));
     points
 }
 
@@ -157,7 +155,8 @@ fn bodies(film: &Film, frame: &Frame, mover: usize, pack: &mut Pack) -> Vec<usiz
         .filter_map(|body| body_node(pack, &mesh::of_body(body), &body.name, body.kind))
         .collect();
     if mover == film.bed {
-        nodes.extend(body_node(pack, &mesh::of_bed(film), "bed", BodyKind::Bed));
+        let plate = film.plate();
+        nodes.extend(plate.and_then(|bed| body_node(pack, &mesh::of_body(&bed), "bed", bed.kind)));
     }
     nodes
 }

@@ -1,10 +1,9 @@
 //! Triangles with a normal at each vertex.
 
 use crate::tubes::{TubeLook, capsule};
-use sim::film::{Film, FilmBody};
+use sim::film::FilmBody;
 use sim::pose::{Point, Vector};
-use sim::scene::solid::{Triangle, solids};
-use sim::scene::{BedShape, Body, Scene};
+use sim::scene::solid::{Triangle, of_shapes};
 use std::collections::BTreeMap;
 
 /// Round parts of arms and tools.
@@ -61,28 +60,7 @@ impl Mesh {
 
 /// A rigid thing in the axes of its mover; what is not finite is left out.
 pub(crate) fn of_body(body: &FilmBody) -> Mesh {
-    let shape = |shape: &sim::scene::Shape| Body {
-        name: String::new(),
-        kind: body.kind,
-        pose: body.mover_from_body,
-        shape: shape.clone(),
-        highlighted: false,
-    };
-    of_shapes(body.shapes.iter().map(shape).collect())
-}
-
-/// The plate in the axes of the bed; empty where the cell has none.
-pub(crate) fn of_bed(film: &Film) -> Mesh {
-    let [x, y] = film.bed_size_m;
-    if !(x > 0.0 && y > 0.0) {
-        return Mesh::default();
-    }
-    let bed = BedShape { pose: sim::pose::Pose::identity(), size_m: film.bed_size_m };
-    of_shapes(vec![bed.body()])
-}
-
-fn of_shapes(bodies: Vec<Body>) -> Mesh {
-    let solids = solids(&Scene { bodies, ..Scene::default() }, |_| true);
+    let solids = of_shapes(&body.shapes, &body.mover_from_body);
     let mut mesh = Mesh::of_triangles(&solids.triangles);
     for round in &solids.capsules {
         mesh.join(&capsule(round.a, round.b, round.radius_m, ROUND));

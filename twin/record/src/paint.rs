@@ -1,6 +1,6 @@
 //! The colours of `render`'s pictures, so that recordings look like them.
 
-use sim::film::{Film, Painted, Quantity};
+use sim::film::{Film, Painted};
 use sim::scene::{BodyKind, MarkSeverity, colours};
 
 /// Red, green, blue as they stand on a screen (sRGB).
@@ -24,11 +24,6 @@ pub(crate) fn severity(severity: MarkSeverity) -> Rgb {
 pub(crate) fn linear(byte: u8) -> f64 {
     let s = f64::from(byte) / 255.0;
     if s <= 0.04045 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
-}
-
-/// The scale of a quantity, where the film has it.
-pub(crate) fn scale_of(film: &Film, quantity: Option<Quantity>) -> Option<&Painted> {
-    film.painted.iter().find(|painted| Some(painted.quantity) == quantity)
 }
 
 /// Colour of a segment of a strand at a time.

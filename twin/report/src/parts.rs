@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use sim::finding::Family;
 
 use crate::frame::{Landing, LoadCase, Stage};
 use crate::results::{Motion, Strand};
@@ -52,6 +53,16 @@ pub enum Verdict {
     Infeasible,
 }
 
+impl Verdict {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Feasible => "feasible",
+            Self::Infeasible => "infeasible",
+        }
+    }
+}
+
 /// Score of each family; null where nothing was checked.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -71,6 +82,19 @@ pub struct Scores {
     /// Program and controller.
     #[serde(rename = "E")]
     pub program: Option<f64>,
+}
+
+impl Scores {
+    /// Score of a family.
+    pub fn of(&self, family: Family) -> Option<f64> {
+        match family {
+            Family::Reach => self.reach,
+            Family::Clearance => self.clearance,
+            Family::Process => self.process,
+            Family::Structure => self.structure,
+            Family::Program => self.program,
+        }
+    }
 }
 
 /// One statement about the job.

@@ -14,6 +14,16 @@ pub type Point = Point3<f64>;
 /// A vector.
 pub type Vector = Vector3<f64>;
 
+/// Whether every coordinate of a point is a number.
+pub fn is_finite_point(point: &Point) -> bool {
+    point.coords.iter().all(|x| x.is_finite())
+}
+
+/// Whether every number of a pose is one.
+pub fn is_finite(pose: &Pose) -> bool {
+    pose.translation.vector.iter().chain(pose.rotation.coords.iter()).all(|x| x.is_finite())
+}
+
 /// Pose from an offset and fixed-axes x, y, z angles as in URDF, `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 pub fn from_xyz_rpy(xyz_m: [f64; 3], rpy_rad: [f64; 3]) -> Pose {
     Pose::from_parts(

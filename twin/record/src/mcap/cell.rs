@@ -1,14 +1,12 @@
 //! The rigid things of a cell as primitives: robot, tool, bed, fixtures and forms.
 
 use sim::film::FilmBody;
-use sim::pose::{Point, Pose, Vector, from_z_axis};
-use sim::scene::solid::{Triangle, solids};
-use sim::scene::{BedShape, Body, Scene};
+use sim::pose::{Point, Pose, Vector, from_z_axis, is_finite_point};
+use sim::scene::colours::of_kind;
+use sim::scene::solid::{Triangle, of_shapes};
 use sim::shape::Shape;
 
 use super::parts;
-use sim::scene::colours::of_kind;
-
 use super::story::Story;
 use super::wire::Proto;
 
@@ -35,12 +33,12 @@ pub(super) fn update(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<u8> {
             .message(6, parts::pair("kind", &format!("{:?}", body.kind).to_lowercase()));
         entities.push(with_shapes(named, body, &frame_from_body));
     }
-    let plate = BedShape { pose: Pose::identity(), size_m: story.film.bed_size_m }.body();
-    if story.film.bed_size_m.iter().all(|side| *side > 0.0) {
-        let colour = parts::colour(of_kind(plate.kind), 1.0);
-        let bed = parts::entity(ns, "bed", "bed");
-        entities.push(with_shape(bed, &plate.shape, &Pose::identity(), &colour));
-    }
+    entities.extend(
+        story
+            .film
+            .plate()
+            .map(|bed| with_shapes(parts::entity(ns, "bed", "bed"), &bed, &Pose::identity())),
+    );
     Proto::default().messages(1, deletions).messages(2, entities).into_bytes()
 }
 
@@ -105,7 +103,7 @@ fn cylinder(ends: (Point, Point), radii: (f64, f64), at: &Pose, colour: &Proto) 
 
 /// `foxglove.TriangleListPrimitive` of a mesh; triangles that name no vertex are left out.
 fn mesh(vertices: &[Point], faces: &[[u32; 3]], at: &Pose, colour: &Proto) -> Option<Proto> {
-    if !vertices.iter().all(|p| p.coords.iter().all(|x| x.is_finite())) {
+    if !vertices.iter().all(is_finite_point) {
         return None;
     }
     let whole = |face: &&[u32; 3]| face.iter().all(|&corner| (corner as usize) < vertices.len());
@@ -115,14 +113,7 @@ fn mesh(vertices: &[Point], faces: &[[u32; 3]], at: &Pose, colour: &Proto) -> Op
 
 /// The convex hull as triangles.
 fn hull(shape: &Shape, at: &Pose, colour: &Proto) -> Option<Proto> {
-    let body = Body {
-        name: String::new(),
-        kind: sim::scene::BodyKind::Arm,
-        pose: Pose::identity(),
-        shape: shape.clone(),
-        highlighted: false,
-    };
-    let solids = solids(&Scene { bodies: vec![body], ..Scene::default() }, |_| true);
+    let solids = of_shapes(std::slice::from_ref(shape), &Pose::identity());
     let corners: Vec<Point> =
         solids.triangles.iter().flat_map(|triangle: &Triangle| triangle.points).collect();
     let indices: Vec<u32> = (0u32..).take(corners.len()).collect();

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use sim::film::{Film, FilmBody, Frame};
-use sim::pose::Pose;
+use sim::pose::{Pose, is_finite};
 use sim::scene::BodyKind;
 
 use super::text::{self, distinct};
@@ -91,11 +91,6 @@ impl Frames {
 /// Links have frames of their own; all else is drawn in the frame it rides on.
 fn is_link(body: &FilmBody) -> bool {
     matches!(body.kind, BodyKind::Arm | BodyKind::OtherArm)
-}
-
-fn is_finite(pose: &Pose) -> bool {
-    let coords = pose.rotation.coords.iter().chain(pose.translation.vector.iter());
-    coords.copied().all(f64::is_finite)
 }
 
 /// Names of joints for both profiles.

@@ -1,9 +1,10 @@
 //! Strands as they come to lie, and the places of findings, all in the frame of the part.
 
-use sim::pose::{Point, Pose, Vector};
+use sim::pose::{Point, Pose, Vector, is_finite_point};
+use sim::scene::colours::of_severity;
 
 use super::parts;
-use super::story::{STRAND_COLOUR, Story, severity_colour};
+use super::story::{STRAND_COLOUR, Story};
 use super::wire::Proto;
 
 // fields of foxglove.SceneEntity
@@ -26,7 +27,7 @@ pub(super) fn piece(story: &Story<'_>, ns: u64, order: usize, from: usize, to: u
 pub(super) fn so_far(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<Proto> {
     let strands = story.film.strands.iter().enumerate();
     let laid = strands.filter_map(|(order, strand)| {
-        let laid = strand.time_s.partition_point(|laid_s| *laid_s <= time_s);
+        let (laid, _) = strand.laid(time_s);
         let last = laid.min(strand.points.len()).checked_sub(1).filter(|last| *last > 0)?;
         Some(line(story, ns, &format!("strand/{order}"), order, 0, last))
     });
@@ -37,13 +38,15 @@ pub(super) fn so_far(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<Proto> {
 fn line(story: &Story<'_>, ns: u64, id: &str, order: usize, from: usize, to: usize) -> Proto {
     let facts = story.facts(order, from, to);
     let points = story.film.strands.get(order).and_then(|strand| strand.points.get(from..=to));
-    let finite = |p: &&Point| p.coords.iter().all(|x| x.is_finite());
     let line = Proto::default()
         .uint(1, 0)
         .message(2, parts::pose(&Pose::identity()))
         .double(3, story.bead_m(order, from, to))
         .uint(4, 0)
-        .messages(5, points.unwrap_or_default().iter().filter(finite).map(parts::point))
+        .messages(
+            5,
+            points.unwrap_or_default().iter().filter(|p| is_finite_point(p)).map(parts::point),
+        )
         .message(6, parts::colour(STRAND_COLOUR, 1.0));
     parts::entity(ns, "part", id)
         .messages(FACTS, facts.iter().map(|(key, value)| parts::pair(key, value)))
@@ -54,13 +57,12 @@ fn line(story: &Story<'_>, ns: u64, id: &str, order: usize, from: usize, to: usi
 pub(super) fn marks(story: &Story<'_>, ns: u64) -> Vec<Proto> {
     let findings = story.film.findings.iter().enumerate();
     let marks = findings.filter_map(|(index, place)| {
-        let at = place.at.filter(|at| at.coords.iter().all(|x| x.is_finite()))?;
-        let (finding, _) = story.finding(index)?;
+        let at = place.at.filter(is_finite_point)?;
         let facts = story.finding_facts(index);
         let entity = parts::entity(ns, "part", &format!("finding/{index}"))
             .messages(FACTS, facts.iter().map(|(key, value)| parts::pair(key, value)));
         let label = format!("{} {}", place.code, super::text::name(&place.words));
-        Some(ball(entity, &at, severity_colour(finding.severity), &label))
+        Some(ball(entity, &at, of_severity(place.severity), &label))
     });
     marks.collect()
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sim::film::{Film, FilmLeg, Player, Quantity, Trace, TraceOf, traces};
 use sim::finding::{Finding, Severity};
 use sim::preflight::Preflight;
-use sim::scene::{MarkSeverity, colours};
+use sim::scene::colours;
 
 use super::agenda::{Due, Item, agenda};
 use super::frames::Frames;
@@ -118,14 +118,9 @@ impl<'a> Story<'a> {
     /// What a click on a finding tells, as keys and values.
     pub(crate) fn finding_facts(&self, index: usize) -> Vec<(&'static str, String)> {
         let Some(place) = self.film.findings.get(index) else { return Vec::new() };
-        let severity = match place.severity {
-            MarkSeverity::Error => "error",
-            MarkSeverity::Warning => "warning",
-            MarkSeverity::Note => "note",
-        };
         let mut facts = vec![
             ("code", place.code.to_owned()),
-            ("severity", severity.to_owned()),
+            ("severity", place.severity.word().to_owned()),
             ("value", text::name(&place.words)),
         ];
         let strand = place.strand.and_then(|order| self.film.strands.get(order));
@@ -192,17 +187,9 @@ fn at(trace: &Trace, time_s: f64) -> Option<f64> {
 }
 
 /// Colour of strands, sRGB.
-pub(crate) const STRAND_COLOUR: u32 = sim::scene::colours::PLAIN;
-
-/// Colour of a finding, sRGB.
-pub(crate) fn severity_colour(severity: Severity) -> u32 {
-    match severity {
-        Severity::Warning => colours::of_severity(MarkSeverity::Warning),
-        Severity::Error => colours::of_severity(MarkSeverity::Error),
-    }
-}
+pub(crate) const STRAND_COLOUR: u32 = colours::PLAIN;
 
 /// Red, green and blue of a colour, 0 to 1.
 pub(crate) fn rgb(colour: u32) -> [f64; 3] {
-    [16, 8, 0].map(|shift| f64::from(colour >> shift & 0xFF) / 255.0)
+    colours::bytes(colour).map(|byte| f64::from(byte) / 255.0)
 }

@@ -63,7 +63,7 @@ pub(super) fn bodies(tape: &Tape, film: &Film) -> Result<(), RecordError> {
             }
         }
     }
-    match packed(&mesh::of_bed(film), BodyKind::Bed) {
+    match film.plate().and_then(|bed| packed(&mesh::of_body(&bed), bed.kind)) {
         Some(bed) => tape.still(path(["world", "bed", "plate"]), &bed),
         None => Ok(()),
     }

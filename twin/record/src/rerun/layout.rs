@@ -2,7 +2,6 @@
 
 use super::cell::body_paths;
 use super::plots::{Plot, plot_of};
-use super::print::painted;
 use super::tape::TIMELINE;
 use crate::paint;
 use rerun::blueprint::components::{BackgroundKind, PanelState, PlayState};
@@ -105,7 +104,7 @@ fn blueprint(
 
 /// The part in its own axes, with the nozzle: the view's extent is the part's.
 fn part_view(film: &Film) -> ContainerLike {
-    let name = match painted(film) {
+    let name = match film.painted.first() {
         Some(painted) => format!("Part: {}", paint::words(painted)),
         None => "Part".to_owned(),
     };

@@ -53,7 +53,7 @@ pub(super) fn plots(tape: &Tape, film: &Film, traces: &[Trace]) -> Result<(), Re
             .with_widths([1.6_f32])
             .with_interpolation_mode(mode);
         tape.still(at.clone(), &style)?;
-        line(tape, at, &thin(&trace.points), |value| on_screen(trace.of, value))?;
+        line(tape, at, &thin(&trace.points), |value| trace.of.on_screen(value))?;
         if let Some(limit) = trace.limit.filter(|limit| limit.is_finite()) {
             let at = path(["plots", plot.name, "limit"]);
             let style = SeriesLines::new()
@@ -62,7 +62,7 @@ pub(super) fn plots(tape: &Tape, film: &Film, traces: &[Trace]) -> Result<(), Re
                 .with_widths([1.0_f32]);
             tape.still(at.clone(), &style)?;
             let ends = [[0.0, limit], [film.total_s, limit]];
-            line(tape, at, &ends, |value| on_screen(trace.of, value))?;
+            line(tape, at, &ends, |value| trace.of.on_screen(value))?;
         }
     }
     Ok(())
@@ -103,16 +103,6 @@ fn line_of(film: &Film, of: TraceOf) -> (String, paint::Rgb) {
             (format!("{} {name}", index + 1), LINES[index % LINES.len()])
         }
         other => (plot_of(other).name.replace('_', " "), LINES[0]),
-    }
-}
-
-/// A value in SI as it stands on a screen.
-fn on_screen(of: TraceOf, value: f64) -> f64 {
-    match of {
-        TraceOf::Speed | TraceOf::Clearance | TraceOf::Sag | TraceOf::Displacement => value * 1e3,
-        TraceOf::Joint(_) | TraceOf::Cure => value * 100.0,
-        TraceOf::Temperature => value - 273.15,
-        TraceOf::Buckling => value,
     }
 }
 

@@ -6,8 +6,8 @@ use super::tape::{Tape, path};
 use crate::RecordError;
 use crate::paint::{self, Rgb};
 use rerun::{Arrows3D, Color, LineStrip3D, LineStrips3D, Points3D, Radius};
-use sim::film::{Film, FilmFinding, FilmStrand, Painted};
-use sim::pose::Point;
+use sim::film::{Film, FilmFinding, FilmStrand};
+use sim::pose::{Point, is_finite_point};
 use std::collections::BTreeMap;
 
 /// Pieces that the strands are laid in; each is an entity, and a viewer asks every entity for every picture.
@@ -120,8 +120,11 @@ pub(super) fn findings(
     film: &Film,
     words: &[FindingWords<'_>],
 ) -> Result<(usize, usize), RecordError> {
-    let placed =
-        film.findings.iter().enumerate().filter(|(_, f)| f.at.is_some_and(|at| finite(&at)));
+    let placed = film
+        .findings
+        .iter()
+        .enumerate()
+        .filter(|(_, f)| f.at.is_some_and(|at| is_finite_point(&at)));
     let (mut told, mut left_out) = (0, 0);
     let mut of_code: BTreeMap<&str, usize> = BTreeMap::new();
     let arrow_m = arrow_m(film);
@@ -180,19 +183,10 @@ fn length_m(strand: &FilmStrand) -> f64 {
     strand.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-fn finite(point: &Point) -> bool {
-    point.coords.iter().all(|x| x.is_finite())
-}
-
 fn xyz(point: &Point) -> [f64; 3] {
     [point.x, point.y, point.z]
 }
 
 fn short(text: &str) -> String {
     text.chars().take(LABEL_MAX).collect()
-}
-
-/// What the colours of the strands mean; `None` where nothing is known.
-pub(super) fn painted(film: &Film) -> Option<&Painted> {
-    film.painted.first()
 }

@@ -8,7 +8,7 @@ mod tests;
 pub(crate) use schemas::schema;
 
 use sim::finding::Severity;
-use sim::pose::{Point, Pose, Vector};
+use sim::pose::{Point, Pose, Vector, is_finite_point};
 
 use crate::mcap::frames::{NamedFrame, WORLD};
 use crate::mcap::{Due, Encoding, Item, STRAND_COLOUR, Story, Topic, rgb, text};
@@ -100,8 +100,8 @@ fn transforms(poses: &[(&NamedFrame, Pose)], ns: u64) -> Vec<u8> {
 /// A piece of a strand as `visualization_msgs/msg/MarkerArray`.
 fn piece(story: &Story<'_>, ns: u64, order: usize, from: usize, to: usize) -> Vec<u8> {
     let points = story.film.strands.get(order).and_then(|strand| strand.points.get(from..=to));
-    let finite = |p: &&Point| p.coords.iter().all(|x| x.is_finite());
-    let points: Vec<&Point> = points.unwrap_or_default().iter().filter(finite).collect();
+    let points: Vec<&Point> =
+        points.unwrap_or_default().iter().filter(|p| is_finite_point(p)).collect();
     let mut cdr = Cdr::new();
     cdr.count(1);
     header(&mut cdr, ns, "part");

@@ -4,7 +4,7 @@ use super::{Both, Change, Diff, ROUNDING};
 use crate::formats::shared::{Tally, excess};
 use crate::formats::tables::{heading, plain, row};
 use crate::line::one_line;
-use crate::parts::{Finding, Verdict};
+use crate::parts::Finding;
 use crate::quantity::{Unit, clock, digits, found};
 
 /// Findings told of each kind.
@@ -75,11 +75,7 @@ impl Diff {
     }
 
     fn verdicts(&self) -> String {
-        let word = |verdict| match verdict {
-            Verdict::Feasible => "feasible",
-            Verdict::Infeasible => "infeasible",
-        };
-        let (a, b) = (word(self.a.verdict), word(self.b.verdict));
+        let (a, b) = (self.a.verdict.word(), self.b.verdict.word());
         if a == b { format!("{b} as before") } else { format!("was {a}, is {b}") }
     }
 

@@ -28,7 +28,7 @@ pub fn junit(report: &Report, root: &str) -> String {
     let writer = Writer { report, path };
     let mut suites: Vec<Suite> = Vec::new();
     for family in Family::ALL {
-        let checked = was_checked(report, family);
+        let checked = report.scores.of(family).is_some();
         let codes = Code::ALL.into_iter().filter(|code| code.family() == family);
         let cases = codes.map(|code| {
             let found = by_code.remove(code.as_str()).unwrap_or_default();
@@ -48,18 +48,6 @@ pub fn junit(report: &Report, root: &str) -> String {
         suites.push(Suite { name: "other".to_owned(), cases });
     }
     document(report, &suites)
-}
-
-fn was_checked(report: &Report, family: Family) -> bool {
-    let scores = &report.scores;
-    let score = match family {
-        Family::Reach => scores.reach,
-        Family::Clearance => scores.clearance,
-        Family::Process => scores.process,
-        Family::Structure => scores.structure,
-        Family::Program => scores.program,
-    };
-    score.is_some()
 }
 
 struct Suite {

@@ -5,7 +5,7 @@ use sim::finding::Code;
 
 use super::shared::{fingerprints, job_path, uri, worst_first};
 use crate::line::one_line;
-use crate::parts::{Finding, Report, Severity};
+use crate::parts::{Finding, Report};
 use crate::quantity::found;
 
 /// Results of one run that GitHub takes; it shows the first 5000.
@@ -193,9 +193,6 @@ fn numbers(finding: &Finding) -> Value {
         "unit": one_line(&finding.unit, 16),
         "time_s": finding.time_s,
         "count": finding.count,
-        "problem.severity": match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        },
+        "problem.severity": finding.severity.word(),
     })
 }

@@ -8,7 +8,7 @@ use super::shared::Tally;
 use crate::human::place;
 use crate::line::{allowed_words, one_line};
 use crate::metrics::{self, Metric};
-use crate::parts::{Finding, Report, Verdict};
+use crate::parts::{Finding, Report};
 use crate::quantity::{Unit, clock, found};
 
 /// Kinds of findings counted in a table.
@@ -58,10 +58,7 @@ pub(crate) fn heading(names: &[&str]) -> String {
 
 /// `INFEASIBLE`, with the score.
 pub(super) fn verdict(report: &Report) -> String {
-    let word = match report.verdict {
-        Verdict::Feasible => "feasible",
-        Verdict::Infeasible => "infeasible",
-    };
+    let word = report.verdict.word();
     match report.score {
         Some(score) => format!("{word}, score {score:.0} of 100"),
         None => word.to_owned(),
@@ -71,12 +68,12 @@ pub(super) fn verdict(report: &Report) -> String {
 /// Score and number of findings of each family.
 pub(super) fn families(report: &Report) -> String {
     let mut table = heading(&["family", "score:", "errors:", "warnings:", "allowed:"]);
-    let scores = metrics::scores(report);
-    for (family, score) in Family::ALL.into_iter().zip(&scores[1..]) {
+    for family in Family::ALL {
         let letter = family.letter();
         let of_family = |finding: &&Finding| finding.code.starts_with(letter);
         let tally = Tally::of(report.findings.iter().filter(of_family));
-        let score = score.value.map_or_else(|| "–".to_owned(), |score| format!("{score:.0}"));
+        let score = report.scores.of(family);
+        let score = score.map_or_else(|| "–".to_owned(), |score| format!("{score:.0}"));
         table.push_str(&row(&[
             format!("{letter} {}", family.title()),
             score,

@@ -14,36 +14,24 @@ const PAUSE_S: f64 = 1e-6;
 /// What the arm does, or that it does nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum State {
-    Approach,
-    Print,
-    Dwell,
-    Retract,
-    Transit,
+    Doing(Phase),
     Wait,
 }
 
 impl State {
-    pub(super) const ALL: [Self; 6] =
-        [Self::Approach, Self::Print, Self::Dwell, Self::Retract, Self::Transit, Self::Wait];
+    pub(super) const ALL: [Self; 6] = [
+        Self::Doing(Phase::Approach),
+        Self::Doing(Phase::Print),
+        Self::Doing(Phase::Dwell),
+        Self::Doing(Phase::Retract),
+        Self::Doing(Phase::Transit),
+        Self::Wait,
+    ];
 
     pub(super) fn word(self) -> &'static str {
         match self {
-            Self::Approach => "approach",
-            Self::Print => "print",
-            Self::Dwell => "dwell",
-            Self::Retract => "retract",
-            Self::Transit => "transit",
+            Self::Doing(phase) => phase.word(),
             Self::Wait => "wait",
-        }
-    }
-
-    fn of(phase: Phase) -> Self {
-        match phase {
-            Phase::Approach => Self::Approach,
-            Phase::Print => Self::Print,
-            Phase::Dwell => Self::Dwell,
-            Phase::Retract => Self::Retract,
-            Phase::Transit => Self::Transit,
         }
     }
 }
@@ -152,7 +140,7 @@ fn of_film(film: &Film) -> Vec<Stretch> {
         .map(|leg| Stretch {
             from_s: leg.from_s.max(0.0),
             to_s: leg.to_s.max(leg.from_s).max(0.0),
-            state: State::of(leg.phase),
+            state: State::Doing(leg.phase),
             strand: leg.strand,
         })
         .collect();
@@ -166,7 +154,7 @@ fn of_report(report: &Report) -> Vec<Stretch> {
         (from_s.is_finite() && to_s >= from_s && to_s.is_finite()).then_some(Stretch {
             from_s,
             to_s,
-            state: State::Print,
+            state: State::Doing(Phase::Print),
             strand: Some(k),
         })
     });

@@ -1,7 +1,7 @@
 //! Key figures as tiles: value, limit, and how much of the limit is used.
 
 use sim::film::TraceOf;
-use sim::finding::Bound;
+use sim::finding::{Bound, Phase};
 
 use super::course::{Course, State, moment};
 use super::{Extras, name, verdict};
@@ -107,7 +107,10 @@ fn held(value: f64, limit: Option<f64>, bound: Bound, unit: Unit) -> Option<Held
 fn cycle(report: &Report, course: &Course) -> Option<Tile> {
     let total_s = report.totals.time_s?;
     let share = match course.is_whole && total_s > 0.0 {
-        true => format!("{:.0} % of it printing", 100.0 * course.spent_s(State::Print) / total_s),
+        true => format!(
+            "{:.0} % of it printing",
+            100.0 * course.spent_s(State::Doing(Phase::Print)) / total_s
+        ),
         false => String::new(),
     };
     let limit = report.findings.iter().find(|it| it.code == "E504").and_then(|it| it.limit);

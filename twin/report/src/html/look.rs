@@ -9,10 +9,9 @@ const ENDLESS: f64 = 1e9;
 
 /// How a kind of trace is shown.
 pub(super) struct Look {
+    of: TraceOf,
     pub(super) title: &'static str,
     pub(super) unit: &'static str,
-    factor: f64,
-    offset: f64,
     /// Whether the limit is a lower one, and the least value the worst.
     pub(super) lower: bool,
     pub(super) note: &'static str,
@@ -20,45 +19,26 @@ pub(super) struct Look {
 
 /// Words, unit and side of the limit of a kind of trace.
 pub(super) fn look(of: TraceOf) -> Look {
-    let plain =
-        |title, unit, factor, note| Look { title, unit, factor, offset: 0.0, lower: false, note };
-    match of {
-        TraceOf::Speed => plain("Speed of the orifice over the part", "mm/s", 1e3, ""),
-        TraceOf::Joint(_) => plain("Joints, of their greatest speed", "%", 1e2, ""),
-        TraceOf::Clearance => Look {
-            lower: true,
-            ..plain("Clearance", "mm", 1e3, "Drawn at twice the limit where nothing came nearer.")
-        },
-        TraceOf::Temperature => Look {
-            offset: -273.15,
-            ..plain(
-                "Temperature of the newest strand",
-                "°C",
-                1.0,
-                "Mean of the section where the strand begins.",
-            )
-        },
-        TraceOf::Cure => {
-            plain("Cure of the newest strand", "%", 1e2, "At the surface where the strand begins.")
+    let (title, note) = match of {
+        TraceOf::Speed => ("Speed of the orifice over the part", ""),
+        TraceOf::Joint(_) => ("Joints, of their greatest speed", ""),
+        TraceOf::Clearance => ("Clearance", "Drawn at twice the limit where nothing came nearer."),
+        TraceOf::Temperature => {
+            ("Temperature of the newest strand", "Mean of the section where the strand begins.")
         }
-        TraceOf::Sag => {
-            plain("Sag behind the nozzle", "mm", 1e3, "Of each strand, told when it is done.")
-        }
-        TraceOf::Displacement => {
-            plain("Displacement by weight", "mm", 1e3, "Largest of the frame, staged.")
-        }
-        TraceOf::Buckling => {
-            Look { lower: true, ..plain("Buckling factor", "", 1.0, "On the weight of the frame.") }
-        }
-    }
+        TraceOf::Cure => ("Cure of the newest strand", "At the surface where the strand begins."),
+        TraceOf::Sag => ("Sag behind the nozzle", "Of each strand, told when it is done."),
+        TraceOf::Displacement => ("Displacement by weight", "Largest of the frame, staged."),
+        TraceOf::Buckling => ("Buckling factor", "On the weight of the frame."),
+    };
+    let lower = matches!(of, TraceOf::Clearance | TraceOf::Buckling);
+    Look { of, title, unit: of.unit(), lower, note }
 }
 
 impl Look {
     /// From SI to the unit shown; `None` where it has no end.
     pub(super) fn of(&self, value: f64) -> Option<f64> {
-        Some(value)
-            .filter(|value| value.abs() < ENDLESS)
-            .map(|value| value * self.factor + self.offset)
+        Some(value).filter(|value| value.abs() < ENDLESS).map(|value| self.of.on_screen(value))
     }
 
     /// A number in the unit shown, with it.

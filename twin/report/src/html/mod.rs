@@ -58,7 +58,7 @@ pub struct Extras<'a> {
     /// Text of the job.
     pub source: &'a slam::Source,
     /// The 3-D view as a section of HTML, trusted.
-    pub view: Option<String>,
+    pub view: Option<&'a str>,
     /// Pictures to embed.
     pub pictures: Vec<EmbeddedPicture>,
 }
@@ -74,35 +74,50 @@ struct Section {
 ///
 /// Findings are shown up to 500, joints and traces with up to about 800 points; the rest is counted.
 pub fn page(report: &Report, extras: &Extras<'_>) -> String {
-    let bare = whole(report, extras, &Album::default());
+    let course = Course::new(report, extras.film);
+    let plots = traces::plots(&course, extras);
+    let script = script(&data::json(&course, &plots), report, extras.view.is_some());
+    let with = |album: &Album<'_>| {
+        let sections = sections(report, extras, album, &course, &plots);
+        whole(report, &sections, &film::bar(&course), &script)
+    };
+    let bare = with(&Album::default());
     if extras.pictures.is_empty() {
         return bare;
     }
-    whole(report, extras, &Album::within(&extras.pictures, BUDGET_BYTES.saturating_sub(bare.len())))
+    with(&Album::within(&extras.pictures, BUDGET_BYTES.saturating_sub(bare.len())))
 }
 
-fn whole(report: &Report, extras: &Extras<'_>, album: &Album<'_>) -> String {
-    let course = Course::new(report, extras.film);
-    let traces = traces::plots(&course, extras);
-    let view = extras.view.clone().unwrap_or_default();
-    let data = data::json(&course, &traces);
-    let sections = [
-        Section::new("figures", "Key figures", figures::body(report, extras, &course)),
-        Section::new("part", "The part", film::body(album, &course)),
-        Section::new("time", "Timeline", timeline::body(report, extras, &course)),
+/// The parts of the page, top to bottom; an empty body is left out.
+fn sections(
+    report: &Report,
+    extras: &Extras<'_>,
+    album: &Album<'_>,
+    course: &Course,
+    plots: &traces::Plots,
+) -> Vec<Section> {
+    let view = extras.view.unwrap_or_default().to_owned();
+    let all = [
+        Section::new("figures", "Key figures", figures::body(report, extras, course)),
+        Section::new("part", "The part", film::body(album, course)),
+        Section::new("time", "Timeline", timeline::body(report, extras, course)),
         Section { id: VIEW_ID, title: "3-D view", body: view },
         Section::new("findings", "Findings", findings::body(report, extras, album)),
-        Section::new("plots", "Over time", traces.html),
+        Section::new("plots", "Over time", plots.html.clone()),
         Section::new("strands", "Strands", strands(report)),
         Section::new("structure", "Structure", tables::body(report, album)),
         Section::new("spin", "Spin maps", film::spin_maps(album)),
         Section::new("basis", "What this rests on", basis::body(report, album)),
     ];
-    let shown = || sections.iter().filter(|section| !section.body.is_empty());
-    let links: String = shown()
+    all.into_iter().filter(|section| !section.body.is_empty()).collect()
+}
+
+fn whole(report: &Report, sections: &[Section], time_bar: &str, script: &str) -> String {
+    let links: String = sections
+        .iter()
         .map(|section| format!("<li><a href=\"#{}\">{}</a></li>", section.id, section.title))
         .collect();
-    let main: String = shown().map(Section::html).collect();
+    let main: String = sections.iter().map(Section::html).collect();
     [
         head(report),
         format!(
@@ -110,8 +125,8 @@ fn whole(report: &Report, extras: &Extras<'_>, album: &Album<'_>) -> String {
             top(report, &links)
         ),
         format!("<main>\n{}{main}</main>\n", verdict::banner(report)),
-        film::bar(&course),
-        script(&data, report, extras.view.is_some()),
+        time_bar.to_owned(),
+        script.to_owned(),
         "</body></html>\n".to_owned(),
     ]
     .concat()

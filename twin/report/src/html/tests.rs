@@ -1,6 +1,7 @@
 //! The page as a whole: what is on it, how large it gets, what is left out.
 
 use sim::film::{Trace, TraceOf};
+use sim::finding::Phase;
 
 use super::base64::encode;
 use super::course::{Course, State};
@@ -188,6 +189,17 @@ fn a_huge_job_is_a_page_below_5_mb() {
 }
 
 #[test]
+fn a_unit_is_told_once() {
+    let mut report = sample::report();
+    let finding = &mut report.findings[0];
+    (finding.code, finding.unit) = ("P310".to_owned(), "N".to_owned());
+    (finding.measured, finding.limit) = (Some(5.0), Some(2.0));
+    (finding.low, finding.high) = (Some(4.0), Some(6.0));
+    let html = page(&report, &extras(&source()));
+    assert!(html.contains("5.00 N") && !html.contains(" N N"));
+}
+
+#[test]
 fn the_film_strip_gets_coarser_before_findings_lose_pictures() {
     let strip = (0..40).map(|k| picture(PictureKind::Strip { time_s: f64::from(k) }, 1000));
     let near = (0..4).map(|index| picture(PictureKind::Finding { index }, 1000));
@@ -245,7 +257,7 @@ fn a_step_holds_until_the_next() {
 fn a_course_of_many_strands_is_sampled_in_order() {
     let (report, _) = large();
     let course = Course::new(&report, None);
-    assert!((course.spent_s(State::Print) - 5000.0).abs() < 1e-6);
+    assert!((course.spent_s(State::Doing(Phase::Print)) - 5000.0).abs() < 1e-6);
     let few = course.sampled();
     assert!(few.len() <= 4000 && few.windows(2).all(|pair| pair[0].to_s <= pair[1].from_s + 1e-9));
 }

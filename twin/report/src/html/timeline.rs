@@ -2,7 +2,8 @@
 
 use super::Extras;
 use super::course::{Course, State, Stretch, moment};
-use crate::parts::{Report, Severity};
+use super::findings::sign;
+use crate::parts::Report;
 use crate::plots::axis::Axis;
 use crate::plots::chart::at;
 use crate::quantity::{clock, counted};
@@ -104,10 +105,7 @@ fn finding_lane(report: &Report, extras: &Extras<'_>, course: &Course) -> Option
         .enumerate()
         .filter_map(|(place, index)| Some((place, (*index)?)))
         .map(|(place, index)| {
-            let (class, mark) = match report.findings[index].severity {
-                Severity::Error => ("error", "■"),
-                Severity::Warning => ("warning", "▲"),
-            };
+            let (class, mark) = sign(report.findings[index].severity);
             let left = 100.0 * (place as f64 + 0.5) / PLACES as f64;
             format!(
                 "<i class=\"{class}\" data-finding=\"{index}\" style=\"left:{left:.1}%\">{mark}</i>"

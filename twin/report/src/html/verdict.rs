@@ -104,18 +104,8 @@ fn margin(finding: &Finding) -> f64 {
 
 /// The family with the lowest score.
 fn tightest(scores: &Scores) -> Option<(Family, f64)> {
-    let known = Family::ALL.into_iter().filter_map(|family| Some((family, of(scores, family)?)));
+    let known = Family::ALL.into_iter().filter_map(|family| Some((family, scores.of(family)?)));
     known.reduce(|best, next| if next.1 < best.1 { next } else { best })
-}
-
-fn of(scores: &Scores, family: Family) -> Option<f64> {
-    match family {
-        Family::Reach => scores.reach,
-        Family::Clearance => scores.clearance,
-        Family::Process => scores.process,
-        Family::Structure => scores.structure,
-        Family::Program => scores.program,
-    }
 }
 
 /// Scores by family as a table.
@@ -134,7 +124,7 @@ fn score_row(report: &Report, family: Family) -> String {
     let n = |severity| {
         report.findings.iter().filter(own).filter(|finding| finding.severity == severity).count()
     };
-    let score = of(&report.scores, family);
+    let score = report.scores.of(family);
     let (number, bar) = match score {
         Some(score) => {
             let class = if score < 50.0 { "gauge past" } else { "gauge" };

@@ -20,7 +20,7 @@ mod tests_any;
 
 use std::collections::BTreeMap;
 
-use crate::parts::{Finding, Report, Severity, Verdict};
+use crate::parts::{Finding, Report, Severity};
 use text::{LONGEST_ID, counted, escaped};
 
 /// Strands with a card of their own.
@@ -44,10 +44,7 @@ pub fn strands_page(report: &Report) -> String {
         .map(|&k| card::card(k + 1, &report.strands[k], of(&report.strands[k].id)))
         .collect();
     let name = escaped(&report.name, LONGEST_ID);
-    let verdict = match report.verdict {
-        Verdict::Feasible => "feasible",
-        Verdict::Infeasible => "infeasible",
-    };
+    let verdict = report.verdict.word();
     let style = concat!(include_str!("style.css"), include_str!("drawing.css"));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\

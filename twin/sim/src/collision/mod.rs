@@ -72,10 +72,7 @@ pub fn check(
     for contact in contacts {
         contact.orders.iter().for_each(|&order| by_order[order].push(contact));
     }
-    let mut order_of: Vec<Option<usize>> = vec![None; job.strands.len()];
-    for (order, printed) in deposit.strands.iter().enumerate() {
-        order_of[printed.strand] = Some(order);
-    }
+    let order_of = deposit.order_of(job.strands.len());
     let parts: Vec<leg::Found> = motion
         .legs
         .par_iter()

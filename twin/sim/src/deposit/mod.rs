@@ -103,6 +103,15 @@ impl Deposit {
         Self { strands, segments, index, bounds }
     }
 
+    /// Place in the printing order of each strand of a job with so many; `None`: not printed.
+    pub fn order_of(&self, strands: usize) -> Vec<Option<usize>> {
+        let mut order_of = vec![None; strands];
+        for (order, printed) in self.strands.iter().enumerate() {
+            order_of[printed.strand] = Some(order);
+        }
+        order_of
+    }
+
     /// Indices of segments whose boxes touch the box `low..high`, ascending, without repeats.
     pub fn near(&self, low: Point, high: Point, found: &mut Vec<u32>) {
         self.index.near(low, high, found);

@@ -24,7 +24,7 @@ use crate::cell::{Job, Mode};
 use crate::finding::{self, Phase, Severity};
 use crate::pose::{Point, Pose};
 use crate::preflight::Preflight;
-use crate::scene::{BodyKind, MarkSeverity};
+use crate::scene::{BedShape, BodyKind, MarkSeverity};
 use crate::shape::Shape;
 
 /// A job as it goes on. SI; places of the print are in part axes.
@@ -135,6 +135,7 @@ impl Film {
     pub fn new(preflight: &Preflight) -> Film {
         let job = preflight.job();
         let (movers, [tool, bed, part]) = movers(job);
+        let order_of = preflight.deposit.order_of(job.strands.len());
         let strands = strands::strands(preflight);
         let painted = quantity::painted(job, &strands, preflight.motion.total_s);
         let mut film = Film {
@@ -147,19 +148,56 @@ impl Film {
             part,
             bed_size_m: [job.cell.bed.size_m[0], job.cell.bed.size_m[1]],
             strands,
-            legs: legs(preflight),
+            legs: legs(preflight, &order_of),
             findings: Vec::new(),
             joints: joints(job),
             painted,
             total_s: preflight.motion.total_s,
         };
-        let order_of = order_of(preflight);
         film.findings = preflight
             .findings()
             .iter()
             .map(|finding| film_finding(preflight, &film, &order_of, finding))
             .collect();
         film
+    }
+
+    /// The scale of a quantity, where the film has it.
+    pub fn painted_by(&self, quantity: Option<Quantity>) -> Option<&Painted> {
+        self.painted.iter().find(|painted| Some(painted.quantity) == quantity)
+    }
+
+    /// The plate that is printed on as a body; `None` where the cell has none.
+    pub fn plate(&self) -> Option<FilmBody> {
+        if !self.bed_size_m.iter().all(|side_m| *side_m > 0.0) {
+            return None;
+        }
+        let plate = BedShape { pose: Pose::identity(), size_m: self.bed_size_m }.body();
+        Some(FilmBody {
+            name: plate.name,
+            kind: plate.kind,
+            mover: self.bed,
+            mover_from_body: plate.pose,
+            shapes: vec![plate.shape],
+            gone_s: None,
+        })
+    }
+
+    /// Findings that can be shown, by their places in the list: one of each code before a second of any, which says more
+    /// than six of the first.
+    pub fn one_of_each_code_first(
+        &self,
+        can_be_shown: impl Fn(&FilmFinding) -> bool,
+    ) -> impl Iterator<Item = usize> {
+        let mut codes: Vec<&str> = Vec::new();
+        let shown = (0..self.findings.len()).filter(|&index| can_be_shown(&self.findings[index]));
+        let (first, more): (Vec<usize>, Vec<usize>) = shown.partition(|&index| {
+            let code = self.findings[index].code;
+            let is_new = !codes.contains(&code);
+            codes.extend(is_new.then_some(code));
+            is_new
+        });
+        first.into_iter().chain(more)
     }
 }
 
@@ -209,8 +247,7 @@ fn bodies(preflight: &Preflight, [tool, part]: [usize; 2]) -> Vec<FilmBody> {
     bodies
 }
 
-fn legs(preflight: &Preflight) -> Vec<FilmLeg> {
-    let order_of = order_of(preflight);
+fn legs(preflight: &Preflight, order_of: &[Option<usize>]) -> Vec<FilmLeg> {
     let clearances = preflight.clearance_by_leg_m.iter();
     let legs = preflight.motion.legs.iter().zip(clearances).filter_map(|(leg, clearance_m)| {
         Some(FilmLeg {
@@ -233,15 +270,6 @@ fn joints(job: &Job) -> Vec<FilmJoint> {
         speed: axis.velocity,
     };
     chain.axes().iter().enumerate().map(joint).collect()
-}
-
-/// Place of each strand of the job in the printing order.
-fn order_of(preflight: &Preflight) -> Vec<Option<usize>> {
-    let mut order_of = vec![None; preflight.job().strands.len()];
-    for (order, printed) in preflight.deposit.strands.iter().enumerate() {
-        order_of[printed.strand] = Some(order);
-    }
-    order_of
 }
 
 fn film_finding(

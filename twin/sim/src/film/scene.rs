@@ -27,9 +27,7 @@ pub struct Look {
 impl Film {
     /// What there is to see at a frame. O(n) in points.
     pub fn scene(&self, frame: &Frame, look: &Look) -> Scene {
-        let painted = look
-            .colour
-            .and_then(|colour| self.painted.iter().find(|painted| painted.quantity == colour));
+        let painted = self.painted_by(look.colour);
         let world_from_part = frame.world_from_mover[self.part];
         let finding = look.finding.and_then(|index| self.findings.get(index));
         let mut strands = Vec::new();
@@ -107,21 +105,20 @@ impl Film {
         std::iter::once(place).chain(named).collect()
     }
 
-    /// One of each code says more than six of the first.
+    /// The worst findings, as far as they are seen by now.
     fn marks(&self, frame: &Frame) -> Vec<Mark> {
         let done_s = self.strands.iter().filter_map(FilmStrand::done_s).fold(0.0, f64::max);
         let all_printed = frame.time_s >= done_s;
-        let mut codes: Vec<&str> = Vec::new();
-        let (first, more): (Vec<_>, Vec<_>) = self.findings.iter().partition(|finding| {
-            let is_new = !codes.contains(&finding.code);
-            codes.push(finding.code);
-            is_new
-        });
         let mut marks: Vec<Mark> = Vec::new();
-        for finding in first.into_iter().chain(more) {
-            let seen = all_printed || finding.time_s.is_none_or(|time_s| time_s <= frame.time_s);
-            let Some(at) = finding.at.filter(|_| seen && finding.shown_on_part) else { continue };
-            let at = frame.world_from_mover[self.part] * at;
+        let seen = |it: &FilmFinding| {
+            it.shown_on_part
+                && (all_printed || it.time_s.is_none_or(|time_s| time_s <= frame.time_s))
+        };
+        for index in self.one_of_each_code_first(seen) {
+            let finding = &self.findings[index];
+            let Some(at) = finding.at.map(|at| frame.world_from_mover[self.part] * at) else {
+                continue;
+            };
             if marks.len() < MARKS_MAX && marks.iter().all(|mark| (mark.at - at).norm() > 1e-3) {
                 marks.push(Mark { at, label: finding.code.to_owned(), severity: finding.severity });
             }
@@ -139,20 +136,9 @@ struct SeenStrand<'a> {
 }
 
 impl SeenStrand<'_> {
-    /// Number of points laid, and the place on the segment that is being laid.
-    fn laid(&self) -> (usize, Option<f64>) {
-        let times = &self.strand.time_s;
-        let laid = times.partition_point(|&time_s| time_s <= self.time_s);
-        if laid == 0 || laid == times.len() {
-            return (laid, None);
-        }
-        let share = (self.time_s - times[laid - 1]) / (times[laid] - times[laid - 1]);
-        (laid, Some(share).filter(|share| *share > 0.0))
-    }
-
     /// What lies there by now: runs of segments of one colour.
     fn printed(&self, colour: Option<(Quantity, f64)>, out: &mut Vec<StrandShape>) {
-        let (laid, part) = self.laid();
+        let (laid, part) = self.strand.laid(self.time_s);
         let points = &self.strand.points;
         let segments = laid.saturating_sub(1) + usize::from(part.is_some());
         let mut run: Option<StrandShape> = None;
@@ -192,7 +178,7 @@ impl SeenStrand<'_> {
 
     /// What is still to come, as planned.
     fn to_come(&self) -> Option<StrandShape> {
-        let (laid, part) = self.laid();
+        let (laid, part) = self.strand.laid(self.time_s);
         let planned = &self.strand.planned;
         if laid >= planned.len() {
             return None;

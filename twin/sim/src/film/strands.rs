@@ -63,6 +63,17 @@ impl FilmStrand {
         self.time_s.last().copied()
     }
 
+    /// How many points are laid by a time, and the place of the nozzle on the segment that is being laid, 0 to 1.
+    pub fn laid(&self, time_s: f64) -> (usize, Option<f64>) {
+        let times = &self.time_s;
+        let laid = times.partition_point(|&at_s| at_s <= time_s);
+        if laid == 0 || laid == times.len() {
+            return (laid, None);
+        }
+        let share = (time_s - times[laid - 1]) / (times[laid] - times[laid - 1]);
+        (laid, Some(share).filter(|share| *share > 0.0))
+    }
+
     /// A quantity of a segment at a time, SI; `None` where it is not known. `order` is the strand's place in the film.
     pub fn value(
         &self,

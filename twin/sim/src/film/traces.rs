@@ -1,6 +1,8 @@
 //! Numbers against the time of the program.
 
 use super::{Film, Player};
+use crate::motion::Moment;
+use crate::pose::Point;
 use crate::preflight::Preflight;
 
 /// What a trace tells.
@@ -22,6 +24,29 @@ pub enum TraceOf {
     Displacement,
     /// Factor on the weight at which the frame would buckle.
     Buckling,
+}
+
+impl TraceOf {
+    /// A value in SI as it stands on a screen.
+    pub fn on_screen(self, value: f64) -> f64 {
+        match self {
+            Self::Speed | Self::Clearance | Self::Sag | Self::Displacement => value * 1e3,
+            Self::Joint(_) | Self::Cure => value * 100.0,
+            Self::Temperature => value - 273.15,
+            Self::Buckling => value,
+        }
+    }
+
+    /// Unit on a screen; empty for a ratio.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Speed => "mm/s",
+            Self::Clearance | Self::Sag | Self::Displacement => "mm",
+            Self::Joint(_) | Self::Cure => "%",
+            Self::Temperature => "°C",
+            Self::Buckling => "",
+        }
+    }
 }
 
 /// A number against time.
@@ -90,13 +115,14 @@ fn moving(preflight: &Preflight, film: &Film) -> Vec<Trace> {
             speed.push([first.time_s, 0.0]);
             joints.iter_mut().for_each(|joint| joint.push([first.time_s, 0.0]));
         }
-        for pair in leg.moments.windows(2) {
+        let orifice = |m: &Moment| Player::orifice(&player.frame_of(m.time_s, m.q.to_vec()));
+        let places: Vec<Point> = leg.moments.iter().map(orifice).collect();
+        for (k, pair) in leg.moments.windows(2).enumerate() {
             let dt_s = pair[1].time_s - pair[0].time_s;
             if !(dt_s > 0.0) {
                 continue;
             }
-            let [from, to] = [&pair[0], &pair[1]]
-                .map(|m| Player::orifice(&player.frame_of(m.time_s, m.q.to_vec())));
+            let [from, to] = [places[k], places[k + 1]];
             let middle_s = 0.5 * (pair[0].time_s + pair[1].time_s);
             speed.push([middle_s, (to - from).norm() / dt_s]);
             for (index, joint) in film.joints.iter().enumerate() {

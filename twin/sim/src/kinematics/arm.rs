@@ -2,7 +2,7 @@
 
 use super::branch::Branch;
 use super::cartesian::Cartesian;
-use super::chain::{Chain, is_finite};
+use super::chain::Chain;
 use super::gate::Gate;
 use super::numeric::Numeric;
 use super::opw::Opw;
@@ -10,7 +10,7 @@ use super::parallel::Parallel;
 use super::planar::Play;
 use super::posture::Posture;
 use super::srs::Srs;
-use crate::pose::Pose;
+use crate::pose::{Pose, is_finite};
 
 /// How an arm's inverse kinematics is solved.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use nalgebra::{Quaternion, UnitQuaternion};
 use thiserror::Error;
 
-use crate::pose::{Pose, Vector};
+use crate::pose::{Pose, Vector, is_finite};
 
 /// How a joint moves along or about its axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -244,10 +244,6 @@ pub(super) fn advance(pose: &mut Pose, joint: &ChainJoint, value: f64) {
             pose.translation.vector += pose.rotation * (joint.axis * value);
         }
     }
-}
-
-pub(super) fn is_finite(pose: &Pose) -> bool {
-    pose.translation.vector.iter().chain(pose.rotation.coords.iter()).all(|x| x.is_finite())
 }
 
 fn drives_and_axes(joints: &[ChainJoint]) -> Result<(Vec<Drive>, Vec<ChainAxis>), ChainFault> {

@@ -9,7 +9,7 @@ pub mod solid;
 #[cfg(test)]
 mod tests;
 
-use crate::pose::{Point, Pose, Vector};
+use crate::pose::{Point, Pose, Vector, is_finite_point};
 pub use crate::shape::Shape;
 
 /// All that one picture can show, in world axes.
@@ -113,6 +113,17 @@ pub struct Mark {
     pub severity: MarkSeverity,
 }
 
+impl MarkSeverity {
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
 /// How bad the thing marked is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MarkSeverity {
@@ -151,15 +162,12 @@ pub struct Bounds {
 impl Bounds {
     /// The smallest box about the finite ones among the points; `None` where there are none.
     pub fn of(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
-        points.into_iter().filter(|p| p.coords.iter().all(|x| x.is_finite())).fold(
-            None,
-            |acc, p| {
-                Some(match acc {
-                    None => Bounds { min: p, max: p },
-                    Some(b) => Bounds { min: b.min.inf(&p), max: b.max.sup(&p) },
-                })
-            },
-        )
+        points.into_iter().filter(is_finite_point).fold(None, |acc, p| {
+            Some(match acc {
+                None => Bounds { min: p, max: p },
+                Some(b) => Bounds { min: b.min.inf(&p), max: b.max.sup(&p) },
+            })
+        })
     }
 
     /// Middle of the box.

@@ -3,8 +3,8 @@
 //! The picture's rasteriser and the ray caster both start here, so they see the same surfaces.
 //! Triangles of round shapes stand on a 64-sided outline, 0.12 % of the radius inside the circle.
 
-use super::{Body, Scene, Shape};
-use crate::pose::{Point, Pose, Vector, from_z_axis};
+use super::{Scene, Shape};
+use crate::pose::{Point, Pose, Vector, from_z_axis, is_finite_point};
 use parry3d::transformation::try_convex_hull;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -64,10 +64,11 @@ pub struct Solids {
 pub fn solids(scene: &Scene, keep: impl Fn(HitId) -> bool) -> Solids {
     let mut out = Solids::default();
     if let Some(bed) = scene.bed.as_ref().filter(|_| keep(HitId::Bed)) {
-        add_body(&mut out, &bed.body(), HitId::Bed);
+        let plate = bed.body();
+        add_shape(&mut out, &plate.shape, &plate.pose, HitId::Bed);
     }
     for (i, body) in scene.bodies.iter().enumerate().filter(|(i, _)| keep(HitId::Body(*i))) {
-        add_body(&mut out, body, HitId::Body(i));
+        add_shape(&mut out, &body.shape, &body.pose, HitId::Body(i));
     }
     for (i, strand) in scene.strands.iter().enumerate().filter(|(i, _)| keep(HitId::Strand(*i))) {
         let id = HitId::Strand(i);
@@ -78,33 +79,43 @@ pub fn solids(scene: &Scene, keep: impl Fn(HitId) -> bool) -> Solids {
             out.capsules.push(Capsule { a: only, b: only, radius_m, id });
         }
     }
-    let finite = |p: &Point| p.coords.iter().all(|x| x.is_finite());
-    out.capsules
-        .retain(|c| finite(&c.a) && finite(&c.b) && c.radius_m > 0.0 && c.radius_m.is_finite());
-    out.triangles.retain(|t| {
-        t.points.iter().all(finite) && t.normals.iter().all(|n| n.iter().all(|x| x.is_finite()))
-    });
+    out.keep_finite();
     out
 }
 
-fn add_body(out: &mut Solids, body: &Body, id: HitId) {
-    let capsule = |a: &Point, b: &Point, radius_m: f64| Capsule {
-        a: body.pose * a,
-        b: body.pose * b,
-        radius_m,
-        id,
-    };
-    match &body.shape {
+/// The primitives of shapes in the axes of a body, placed by its pose; what is not finite is left out.
+pub fn of_shapes(shapes: &[Shape], pose: &Pose) -> Solids {
+    let mut out = Solids::default();
+    shapes.iter().for_each(|shape| add_shape(&mut out, shape, pose, HitId::Body(0)));
+    out.keep_finite();
+    out
+}
+
+impl Solids {
+    fn keep_finite(&mut self) {
+        let whole = |c: &Capsule| is_finite_point(&c.a) && is_finite_point(&c.b);
+        self.capsules.retain(|c| whole(c) && c.radius_m > 0.0 && c.radius_m.is_finite());
+        self.triangles.retain(|t| {
+            t.points.iter().all(is_finite_point)
+                && t.normals.iter().all(|n| n.iter().all(|x| x.is_finite()))
+        });
+    }
+}
+
+fn add_shape(out: &mut Solids, shape: &Shape, pose: &Pose, id: HitId) {
+    let capsule =
+        |a: &Point, b: &Point, radius_m: f64| Capsule { a: pose * a, b: pose * b, radius_m, id };
+    match shape {
         Shape::Capsule { a, b, radius_m } => out.capsules.push(capsule(a, b, *radius_m)),
         Shape::Cone { from, to, radius_from_m, radius_to_m } => {
-            frustum(out, &body.pose, (*from, *to), (*radius_from_m, *radius_to_m), id);
+            frustum(out, pose, (*from, *to), (*radius_from_m, *radius_to_m), id);
         }
-        Shape::Box { half_m, pose } => {
+        Shape::Box { half_m, pose: own } => {
             let corners = super::Bounds { min: (-half_m).into(), max: (*half_m).into() }.corners();
-            hull(out, &(body.pose * pose), &corners, id);
+            hull(out, &(pose * own), &corners, id);
         }
-        Shape::Hull { points } => hull(out, &body.pose, points, id),
-        Shape::Mesh { vertices, triangles } => mesh(out, &body.pose, vertices, triangles, id),
+        Shape::Hull { points } => hull(out, pose, points, id),
+        Shape::Mesh { vertices, triangles } => mesh(out, pose, vertices, triangles, id),
     }
 }
 

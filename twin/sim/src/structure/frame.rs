@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::section::{Elastic, Section};
-use crate::pose::{Point, Vector};
+use crate::pose::{Point, Vector, is_finite_point};
 
 /// A straight beam between two nodes, rigidly joined to both.
 ///
@@ -106,8 +106,7 @@ impl Frame {
     /// # Errors
     /// The first node or member that cannot be used.
     pub fn new(nodes: Vec<Point>, members: Vec<Member>) -> Result<Self, FrameFault> {
-        let finite = |point: &Point| point.coords.iter().all(|x| x.is_finite());
-        if let Some(node) = nodes.iter().position(|point| !finite(point)) {
+        if let Some(node) = nodes.iter().position(|point| !is_finite_point(point)) {
             return Err(FrameFault::NotFinite { node });
         }
         for (member, each) in members.iter().enumerate() {

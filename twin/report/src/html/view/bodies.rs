@@ -5,8 +5,8 @@ use super::grid::Grid;
 use serde_json::{Value, json};
 use sim::film::{Film, FilmBody};
 use sim::pose::{Point, Pose};
-use sim::scene::solid::{Capsule, Triangle, solids};
-use sim::scene::{BedShape, Body, BodyKind, Scene, Shape};
+use sim::scene::solid::{Capsule, Triangle, of_shapes};
+use sim::scene::{BodyKind, Shape};
 use std::collections::BTreeMap;
 
 /// Corners of one body at most: its triangles count them with 16 bits.
@@ -39,22 +39,13 @@ impl Packed {
 ///
 /// The largest are made coarser first; one that even then does not fit is left out.
 pub(super) fn pack(film: &Film, room: usize) -> (Vec<Packed>, usize) {
-    let bed = BedShape { pose: Pose::identity(), size_m: film.bed_size_m }.body();
-    let bed = FilmBody {
-        name: bed.name,
-        kind: BodyKind::Bed,
-        mover: film.bed,
-        mover_from_body: Pose::identity(),
-        shapes: vec![bed.shape],
-        gone_s: None,
-    };
-    let there = std::iter::once(&bed).chain(&film.bodies);
+    let bed = film.plate();
+    let there = bed.iter().chain(&film.bodies);
     let mut coarse = 0;
     let mut left = room;
     let mut waiting: Vec<(usize, Vec<Triangle>, Packed)> = Vec::new();
     for (index, body) in there.enumerate() {
-        let scene = scene_of(&body.shapes, body.mover_from_body);
-        let all = solids(&scene, |_| true);
+        let all = of_shapes(&body.shapes, &body.mover_from_body);
         let packed = packed(body, &all.triangles, all.capsules);
         waiting.push((index, all.triangles, packed));
     }
@@ -80,17 +71,6 @@ pub(super) fn pack(film: &Film, room: usize) -> (Vec<Packed>, usize) {
     }
     done.sort_by_key(|(index, _)| *index);
     (done.into_iter().map(|(_, packed)| packed).collect(), coarse)
-}
-
-fn scene_of(shapes: &[Shape], pose: Pose) -> Scene {
-    let body = |shape: &Shape| Body {
-        name: String::new(),
-        kind: BodyKind::Arm,
-        pose,
-        shape: shape.clone(),
-        highlighted: false,
-    };
-    Scene { bodies: shapes.iter().map(body).collect(), ..Scene::default() }
 }
 
 fn packed(body: &FilmBody, triangles: &[Triangle], capsules: Vec<Capsule>) -> Packed {
@@ -149,7 +129,7 @@ fn coarser(body: &Packed, triangles: &[Triangle], share: f64) -> Packed {
     let faces = triangles.iter().map(|t| t.points.map(|p| corner(&p)));
     let faces: Vec<[u32; 3]> = faces.filter(|[a, b, c]| a != b && b != c && c != a).collect();
     let shape = Shape::Mesh { vertices, triangles: faces };
-    let all = solids(&scene_of(&[shape], Pose::identity()), |_| true);
+    let all = of_shapes(&[shape], &Pose::identity());
     with(body.clone(), &all.triangles)
 }
 

@@ -44,7 +44,3 @@ impl Grid {
         serde_json::json!([min[0], min[1], min[2], size[0], size[1], size[2]])
     }
 }
-
-pub(super) fn is_finite(point: &Point) -> bool {
-    point.coords.iter().all(|x| x.is_finite())
-}

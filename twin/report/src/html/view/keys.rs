@@ -1,10 +1,10 @@
 //! Where the movers are, at a few times; the viewer goes straight between them.
 
 use super::blob::Blob;
-use super::grid::{Grid, is_finite};
+use super::grid::Grid;
 use serde_json::{Value, json};
 use sim::film::{Film, Player};
-use sim::pose::{Point, Pose};
+use sim::pose::{Point, Pose, is_finite};
 
 /// Bytes of a mover at a time: three places, four of a quaternion.
 const POSE_BYTES: usize = 14;
@@ -37,7 +37,7 @@ impl Keys {
         self.world_from_mover
             .iter()
             .map(move |poses| poses.get(mover).copied().unwrap_or_default())
-            .map(|pose| if is_sound(&pose) { pose } else { Pose::identity() })
+            .map(|pose| if is_finite(&pose) { pose } else { Pose::identity() })
     }
 
     /// Writes times and poses; what never moves is told once.
@@ -77,9 +77,4 @@ fn turns(poses: impl Iterator<Item = Pose>) -> Vec<i16> {
         last = now;
     }
     codes
-}
-
-fn is_sound(pose: &Pose) -> bool {
-    is_finite(&Point::from(pose.translation.vector))
-        && pose.rotation.coords.iter().all(|x| x.is_finite())
 }

@@ -18,8 +18,8 @@ use blob::Blob;
 use keys::Keys;
 use serde_json::{Map, Value, json};
 use sim::film::{Film, FilmStrand, Player};
+use sim::pose::is_finite_point;
 use sim::preflight::Preflight;
-use sim::scene::MarkSeverity;
 use strands::Kept;
 
 pub(crate) use markup::section;
@@ -178,16 +178,12 @@ fn findings(film: &Film, room: usize, said: &mut Vec<String>) -> Value {
     let mut told: Vec<(usize, Value)> = Vec::new();
     for index in order.into_iter().take(FINDINGS_MAX) {
         let finding = &film.findings[index];
-        let at = finding.at.filter(grid::is_finite).map(|at| [at.x, at.y, at.z].map(shorter));
+        let at = finding.at.filter(is_finite_point).map(|at| [at.x, at.y, at.z].map(shorter));
         let bodies: Vec<String> = finding.bodies.iter().take(4).map(|name| cut(name)).collect();
         let value = json!({
             "index": index,
             "code": finding.code,
-            "kind": match finding.severity {
-                MarkSeverity::Error => "error",
-                MarkSeverity::Warning => "warning",
-                MarkSeverity::Note => "note",
-            },
+            "kind": finding.severity.word(),
             "time_s": finding.time_s,
             "at": at,
             "strand": finding.strand,

@@ -1,10 +1,10 @@
 //! Strands as runs of points with times and values.
 
 use super::blob::Blob;
-use super::grid::{Grid, is_finite};
+use super::grid::Grid;
 use serde_json::{Value, json};
 use sim::film::{Ageing, Film, FilmStrand, Painted, Quantity};
-use sim::pose::Point;
+use sim::pose::{Point, is_finite_point};
 use std::collections::BTreeMap;
 
 /// A value at the high end of its scale; codes above are no places on the scale.
@@ -30,8 +30,8 @@ impl Kept {
     pub(super) fn all(film: &Film) -> Kept {
         let strands = film.strands.iter().enumerate().map(|(order, strand)| {
             let sound = |&k: &usize| {
-                strand.planned.get(k).is_some_and(is_finite)
-                    && is_finite(&strand.points[k])
+                strand.planned.get(k).is_some_and(is_finite_point)
+                    && is_finite_point(&strand.points[k])
                     && strand.time_s.get(k).is_some_and(|time_s| time_s.is_finite())
             };
             (order, (0..strand.points.len()).filter(sound).collect::<Vec<_>>())
