@@ -139,7 +139,8 @@ fn check_value(value: &Value<'_>, kind: Kind, label: Label<'_>, problems: &mut P
         (Kind::List(item, least), Value::Array(array)) => {
             if array.elements.len() < least {
                 let count = array.elements.len();
-                let message = format!("{label} needs at least {least} items; here are {count}");
+                let items = if least == 1 { "item" } else { "items" };
+                let message = format!("{label} needs at least {least} {items}; here are {count}");
                 problems.error(span_of(array), message);
             }
             for (index, element) in array.elements.iter().enumerate() {

@@ -154,7 +154,7 @@ fn keys_types_and_ranges() {
         (", \"speed\": 1", "The unit here is mm/s"),
         (", \"clearance_mm\": 1", "this key belongs in \"limits\""),
         (", \"qqqqqqqq\": 1", "a strand has the keys id, points_mm"),
-        (", \"speed_mm_s\": 0", "speed_mm_s is 0; it must be above 0 and at most 10000 mm/s"),
+        (", \"speed_mm_s\": 0", "speed_mm_s is 0; it must be from 0.001 to 10000 mm/s"),
         (", \"speed_mm_s\": 1e999", "1e999 is too large"),
         (", \"speed_mm_s\": \"2\"", "is \"2\"; it must be a number"),
         (", \"speed_mm_s\": null", "is null|leave the key out"),
@@ -178,7 +178,7 @@ fn keys_types_and_ranges() {
     ] {
         expect(&strand(rest), &[expected]);
     }
-    expect(&body("\"strands\": []"), &["2:12: |at least 1 items"]);
+    expect(&body("\"strands\": []"), &["2:12: |at least 1 item; here are 0"]);
     expect(
         &strand("").replace("\"slam\": 1,", ""),
         &["1:1: |lacks the key \"slam\"|write \"slam\": 1"],

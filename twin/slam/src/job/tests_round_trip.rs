@@ -17,7 +17,7 @@ fn length() -> impl Strategy<Value = Spanned<f64>> {
 }
 
 fn positive() -> impl Strategy<Value = Option<Spanned<f64>>> {
-    option::of(prop_oneof![1e-9..100.0_f64, 1.0..50.0_f64].prop_map(placed))
+    option::of(prop_oneof![1e-3..100.0_f64, 1.0..50.0_f64].prop_map(placed))
 }
 
 fn triple() -> impl Strategy<Value = Triple> {

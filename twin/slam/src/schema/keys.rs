@@ -4,7 +4,8 @@ use super::{Key, Kind, Range, Rule, Table};
 
 const LENGTH_MM: Range = Range::within(-1e5, 1e5);
 const ANGLE_DEG: Range = Range::within(-360.0, 360.0);
-const SPEED: Range = Range::positive(1e4);
+/// A micrometre a second is slower than anything prints.
+const SPEED: Range = Range::within(1e-3, 1e4);
 const LIMIT: Range = Range::positive(1e5);
 const JOINT_ROW: Kind = Kind::List(&Kind::Number(LENGTH_MM), 1);
 const JOINT_ROWS: Kind = Kind::List(&JOINT_ROW, 1);

@@ -36,7 +36,7 @@ fn schema_is_a_schema_and_tells_units() {
     let strand = &schema["properties"]["strands"]["items"];
     assert_eq!(strand["additionalProperties"], false);
     let speed = &strand["properties"]["speed_mm_s"];
-    assert_eq!(speed["exclusiveMinimum"], 0.0);
+    assert_eq!(speed["minimum"], 1e-3);
     assert_eq!(speed["description"], "Asked TCP speed. Unit: mm/s. Default: the cell's.");
 }
 
