@@ -15,7 +15,7 @@ use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Naming, line_of};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{FEASIBLE, FOUND, files};
+use crate::{FEASIBLE, FOUND, files, targets};
 
 /// Fit a material to a few measured prints
 ///
@@ -49,6 +49,7 @@ struct Calibrated {
 
 impl Calibrate {
     pub(crate) fn run(self, screen: &mut Screen<'_>) -> Result<u8, Failure> {
+        targets::claim(self.out.as_deref(), [self.measured.as_path()])?;
         let library = Library::open(&self.library)?;
         let done = self.calibrated(&library)?;
         table::print(&done, screen)?;

@@ -4,19 +4,19 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use report::{Baseline, Provenance, Report, Severity, StepTime, Timing};
+use report::{Baseline, Input, Provenance, Report, Severity, StepTime, Timing};
 use sim::film::Film;
 use sim::preflight::{Step, preflight};
 
 use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Loaded};
-use crate::outputs::{Form, Saved, make_folder, today};
+use crate::outputs::{Form, Saved, clear_folder, make_folder, today};
 use crate::page::Page;
 use crate::pictures::Album;
 use crate::recordings::{McapProfile, Recorder, Recording};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{DEGRADED, FEASIBLE, FOUND, diff, files};
+use crate::{DEGRADED, FEASIBLE, FOUND, diff, files, names, targets};
 
 /// Check a job before it reaches the robot
 ///
@@ -84,12 +84,21 @@ impl Check {
         let library = Library::open(&self.library)?;
         clock.step("reading");
         let loaded = load::job(&self.job, &library, screen)?;
-        let baseline = self.baseline.as_deref().map(diff::read).transpose()?;
-        let baseline = baseline.as_ref().map(Baseline::of);
+        let baseline_of = self.baseline.as_deref().map(diff::read).transpose()?;
+        let baseline = baseline_of.as_ref().map(Baseline::of);
         let pool = self.pool()?;
+        let Loaded { source, job, allowances, urdf, inputs, missing_meshes } = loaded;
+        if let Some(other) = baseline_of.as_ref().filter(|other| other.name != job.name) {
+            let (theirs, ours) = (names::clipped(&other.name), names::clipped(&job.name));
+            writeln!(
+                screen.err,
+                "warning: the baseline is of another job, `{theirs}`; this is `{ours}`"
+            )?;
+        }
         // before the work, which would be lost
         make_folder(&self.out)?;
-        let Loaded { source, job, allowances, urdf, inputs, missing_meshes } = loaded;
+        self.claim(&inputs)?;
+        clear_folder(&self.out)?;
         let bar = bar(screen);
         let checked = on(pool.as_ref(), || {
             preflight(job, |step| {
@@ -133,7 +142,7 @@ impl Check {
         clock.stop();
         bar.finish_and_clear();
         if let Some(album) = album.as_ref().filter(|album| !album.shots.is_empty()) {
-            report.provenance.drawn_by = Some(album.drawn_by.clone());
+            report.provenance.drawn_by = Some(album.drawn_by.join("; then "));
         }
         report.timing = clock.timing();
         let mut written = self.write(&report, page.as_ref(), album.as_ref())?;
@@ -145,6 +154,16 @@ impl Check {
         self.answer(&report, album.as_ref(), &written, screen)?;
         let undrawn = album.as_ref().is_some_and(|album| album.missing.is_some());
         Ok(self.code(&report, baseline.as_ref(), undrawn || missing_meshes > 0))
+    }
+
+    /// Every file that will be written but pictures, which have names that nobody chooses.
+    fn claim(&self, inputs: &[Input]) -> Result<(), Refusal> {
+        let pages: &[&str] = if self.no_pages { &[] } else { &["report.html", "strands.html"] };
+        let own = pages.iter().chain(&["report.json"]).map(|name| self.out.join(name));
+        let saved = self.report.iter().map(|saved| saved.path(&self.out));
+        let recorded = self.record.iter().map(|recording| recording.path().to_owned());
+        let all: Vec<PathBuf> = own.chain(saved).chain(recorded).collect();
+        targets::claim(all.iter().map(PathBuf::as_path), load::paths(inputs))
     }
 
     /// Everything but pictures and recordings.
@@ -198,6 +217,10 @@ impl Check {
     ) -> Result<(), Failure> {
         if let Some(why) = album.and_then(|album| album.missing.as_ref()) {
             writeln!(screen.err, "warning: a picture was not drawn: {why}")?;
+        }
+        if let Some(why) = album.and_then(|album| album.fell_back.as_ref()) {
+            let told = "pictures were drawn by rays on the processor, which takes longer";
+            writeln!(screen.err, "note: {told}: {why}")?;
         }
         let rest = self.out.join("report.html").display().to_string();
         if self.format != Form::Human {

@@ -124,7 +124,7 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Whether a device or a pipe is at a path, or at the end of its links. Asked of the path itself: what `/dev/stdout` leads
 /// to through a pipe has no name of its own.
-fn is_stream(path: &Path) -> bool {
+pub(crate) fn is_stream(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
 }
 

@@ -27,6 +27,7 @@ mod robot;
 mod schema;
 mod screen;
 mod solve;
+mod targets;
 #[cfg(test)]
 mod tests;
 mod validate;

@@ -35,6 +35,11 @@ pub(crate) struct Loaded {
     pub(crate) missing_meshes: usize,
 }
 
+/// Paths of what was read; names of the library are none.
+pub(crate) fn paths(inputs: &[Input]) -> impl Iterator<Item = &Path> {
+    inputs.iter().map(|input| Path::new(&input.name))
+}
+
 /// A cell with its robot and tool.
 pub(crate) struct CellParts {
     /// The cell.

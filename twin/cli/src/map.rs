@@ -10,7 +10,7 @@ use crate::load::{self, Loaded};
 use crate::pictures::png;
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{FEASIBLE, files};
+use crate::{FEASIBLE, files, targets};
 
 /// Width and height of the picture, px.
 const PICTURE_PX: (u32, u32) = (1400, 800);
@@ -50,7 +50,9 @@ enum Vary {
 impl Map {
     pub(crate) fn run(self, screen: &mut Screen<'_>) -> Result<u8, Failure> {
         let library = Library::open(&self.library)?;
-        let Loaded { source, job, .. } = load::job(&self.job, &library, screen)?;
+        let Loaded { source, job, inputs, .. } = load::job(&self.job, &library, screen)?;
+        targets::ends_in(&self.output, &["png"])?;
+        targets::claim([self.output.as_path()], load::paths(&inputs))?;
         let strand = self.strand(&job, &source.name)?;
         let id = job.strands[strand].id.clone();
         let checked =

@@ -6,7 +6,7 @@ use slam::Diagnostic;
 /// Less alike than this is another word, not a slip.
 const ALIKE: f64 = 0.75;
 /// Longest list of names in a hint.
-const MOST_NAMES: usize = 40;
+const MOST_NAMES: usize = 60;
 
 /// Adds the nearest of the known names, and the list of them.
 pub(crate) fn with_names(problem: Diagnostic, wrong: &str, known: &[String]) -> Diagnostic {

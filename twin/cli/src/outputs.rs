@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use clap::ValueEnum as _;
 use report::Report;
 
 use crate::refusal::Refusal;
@@ -74,8 +75,11 @@ impl FromStr for Saved {
             Some((form, file)) => (form, Some(PathBuf::from(file))),
             None => (text, None),
         };
-        let form = <Form as clap::ValueEnum>::from_str(form, false)
-            .map_err(|_| format!("there is no form `{form}`; give one that --format knows"))?;
+        let form = <Form as clap::ValueEnum>::from_str(form, false).map_err(|_| {
+            let all = Form::value_variants().iter().filter_map(clap::ValueEnum::to_possible_value);
+            let known: Vec<String> = all.map(|value| value.get_name().to_owned()).collect();
+            format!("there is no form `{form}`; there is {}", known.join(", "))
+        })?;
         Ok(Self { form, file })
     }
 }
@@ -93,15 +97,22 @@ impl Saved {
     }
 }
 
-/// The folder of the answer, without what an earlier check left there.
+/// Makes the folder of the answer.
 ///
 /// # Errors
-/// A folder that cannot be made, or an old file in it that cannot be removed.
+/// A folder that cannot be made.
 pub(crate) fn make_folder(out: &Path) -> Result<(), Refusal> {
     std::fs::create_dir_all(out).map_err(|error| {
         let message = format!("the folder cannot be made: {error}");
         Refusal::whole(out.display().to_string(), message).hint("name another with --out")
-    })?;
+    })
+}
+
+/// Removes what an earlier check left in the folder of the answer.
+///
+/// # Errors
+/// An old file that cannot be removed.
+pub(crate) fn clear_folder(out: &Path) -> Result<(), Refusal> {
     let ours = |name: &str| {
         pictures::is_ours(name) || ["report.json", "report.html", "strands.html"].contains(&name)
     };

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
-use render::{Camera, Fit, Picture, Studio, Task, View};
+use render::{Camera, DrawnBy, Fit, Picture, Studio, Task, View};
 use sim::film::{Film, FilmStrand, Look, Player, Quantity};
 use sim::finding::{Family, Finding};
 use sim::motion::{Across, spin_map};
@@ -59,8 +59,10 @@ pub(crate) struct Shot {
 /// All pictures of a check.
 pub(crate) struct Album {
     pub(crate) shots: Vec<Shot>,
-    /// Who drew; empty where nothing was drawn.
-    pub(crate) drawn_by: String,
+    /// Who drew, each once: where a driver fails on the way there is a second.
+    pub(crate) drawn_by: Vec<String>,
+    /// Why the graphics card did not draw where it was asked.
+    pub(crate) fell_back: Option<String>,
     /// Why something was not drawn.
     pub(crate) missing: Option<String>,
 }
@@ -68,7 +70,8 @@ pub(crate) struct Album {
 impl Album {
     /// Draws everything worth a look; each picture is in its file before the next is begun.
     pub(crate) fn of(checked: &Preflight, film: &Film, out: &Path, studio: &mut Studio) -> Album {
-        let mut album = Album { shots: Vec::new(), drawn_by: String::new(), missing: None };
+        let mut album =
+            Album { shots: Vec::new(), drawn_by: Vec::new(), fell_back: None, missing: None };
         for (shows, words, task) in wanted(checked, film) {
             let done = studio
                 .draw(&task)
@@ -110,8 +113,12 @@ impl Album {
         film: &Film,
         out: &Path,
     ) -> Result<(), String> {
-        if self.drawn_by.is_empty() {
-            self.drawn_by = picture.drawn_by.to_string();
+        let drawn_by = picture.drawn_by.to_string();
+        if !self.drawn_by.contains(&drawn_by) {
+            self.drawn_by.push(drawn_by);
+        }
+        if let DrawnBy::Cpu { because: Some(why) } = &picture.drawn_by {
+            self.fell_back.get_or_insert_with(|| why.clone());
         }
         let path = file_name(shows, film).map(|name| out.join(name));
         if let Some(path) = &path {

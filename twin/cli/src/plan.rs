@@ -10,7 +10,7 @@ use crate::library::{Library, LibraryArgs};
 use crate::load::{self, Naming, is_path};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{FEASIBLE, REFUSED, files};
+use crate::{FEASIBLE, REFUSED, files, targets};
 
 /// Turn a wireframe or curves into a job
 ///
@@ -56,6 +56,8 @@ fn positive(text: &str) -> Result<f64, String> {
 
 impl Plan {
     pub(crate) fn run(self, screen: &mut Screen<'_>) -> Result<u8, Failure> {
+        let read = [Some(&self.design), self.order.as_ref()].into_iter().flatten();
+        targets::claim(self.output.as_deref(), read.map(PathBuf::as_path))?;
         let library = Library::open(&self.library)?;
         let cell = self.cell_and_material(&library)?;
         let options = self.options(&cell)?;
@@ -104,7 +106,8 @@ impl Plan {
             Some(path) => {
                 files::write_whole(path, text.as_bytes())?;
                 let n_strands = document.strands.len();
-                writeln!(screen.err, "{}: {n_strands} strands", path.display())?;
+                let strands = if n_strands == 1 { "strand" } else { "strands" };
+                writeln!(screen.err, "{}: {n_strands} {strands}", path.display())?;
             }
         }
         Ok(FEASIBLE)

@@ -30,6 +30,13 @@ enum Kind {
     Stl,
 }
 
+impl Recording {
+    /// Where it goes.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
 impl FromStr for Recording {
     type Err = String;
 

@@ -13,7 +13,7 @@ use crate::load;
 use crate::pictures::{done_s, finding_scene, write_png};
 use crate::refusal::{Failure, Refusal};
 use crate::screen::Screen;
-use crate::{FEASIBLE, files};
+use crate::{FEASIBLE, files, targets};
 
 /// Frames of a film if none are asked for.
 const FRAMES: u16 = 48;
@@ -32,13 +32,13 @@ pub(crate) struct Render {
     #[arg(long, value_name = "VIEW", default_value = "hero", value_parser = view_of)]
     view: Shown,
     /// When: seconds, percent of the program (50%) or `end`, when the last strand is done
-    #[arg(long, value_name = "WHEN", default_value = "end", value_parser = when_of)]
+    #[arg(long, value_name = "WHEN", default_value = "end", value_parser = when_of, allow_hyphen_values = true)]
     at: When,
     /// Colour of the strands: sag, order, age, temperature, cure, bead, displacement, utilisation,
     /// clearance, speed or none
     #[arg(long, value_name = "QUANTITY", default_value = "sag", value_parser = colour_of)]
     colour: Colour,
-    /// Width and height in pixels
+    /// Width and height in pixels, 240 to 4096 each
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size_of)]
     size: (u32, u32),
     /// Frames of a film
@@ -80,9 +80,20 @@ impl Render {
         let library = Library::open(&self.library)?;
         let loaded = load::job(&self.job, &library, screen)?;
         let name = loaded.source.name.clone();
+        let is_film = matches!(self.view, Shown::Turntable | Shown::Build);
+        targets::ends_in(&self.output, if is_film { &["png", "apng", "gif"] } else { &["png"] })?;
+        targets::claim([self.output.as_path()], load::paths(&loaded.inputs))?;
         let checked =
             preflight(loaded.job, |_| {}).map_err(|error| Refusal::unsolved(&name, &error))?;
         let film = Film::new(&checked);
+        if let When::Seconds(asked_s) = self.at
+            && asked_s > film.total_s
+        {
+            let message = format!("the program ends at {:.1} s, before {asked_s} s", film.total_s);
+            return Err(Refusal::whole("--at", message)
+                .hint("give a time in it, or `--at end`")
+                .into());
+        }
         let backend = if self.cpu { render::Backend::Cpu } else { render::Backend::Auto };
         let mut studio = Studio::new(backend, screen.drawer.clone());
         let mut draw = |task: Task| {
@@ -149,7 +160,10 @@ impl Render {
         let there = film.findings.len();
         let refused = |why: String| Err(Refusal::whole(name, why));
         match number.checked_sub(1).and_then(|index| Some((index, film.findings.get(index)?))) {
-            None => refused(format!("there is no finding {number}: there are {there}")),
+            None if there == 0 => refused("the twin found nothing to look at".to_owned()),
+            None => refused(format!(
+                "there is no finding {number}; they are numbered from 1 to {there}"
+            )),
             Some((_, finding)) if finding.at.is_none() => {
                 refused(format!("finding {number} ({}) has no place to look at", finding.code))
             }

@@ -4,6 +4,7 @@ mod calibrate;
 mod jobs;
 mod robots;
 mod solve;
+mod targets;
 mod validate;
 
 use std::ffi::OsString;
