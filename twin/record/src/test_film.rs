@@ -30,8 +30,8 @@ pub(crate) fn strand(id: &str, points_mm: &[[f64; 3]], born_s: f64) -> FilmStran
         speed_m_s: vec![0.01; segments],
         sag_m: 1e-4,
         clearance_m: f64::INFINITY,
-        displacement_m: f64::NAN,
-        utilisation: f64::NAN,
+        displacement_m: Vec::new(),
+        utilisation: Vec::new(),
         ageing: Ageing::default(),
     }
 }

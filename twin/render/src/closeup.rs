@@ -37,11 +37,13 @@ pub(crate) fn close_up(
     Ok(picture)
 }
 
-/// A box about the place.
+/// A box about the place, with the other marks that are not far.
 fn around(scene: &Scene, at: Point) -> Bounds {
     let radius_m = scene.strands.iter().map(|strand| strand.radius_m).fold(0.0, f64::max);
-    let reach = Vector::repeat((REACH_RADII * radius_m).clamp(REACH_M[0], REACH_M[1]));
-    Bounds { min: at - reach, max: at + reach }
+    let others = scene.marks.iter().map(|mark| 1.2 * (mark.at - at).norm());
+    let others_m = others.filter(|off_m| *off_m <= REACH_M[1]).fold(0.0, f64::max);
+    let reach = (REACH_RADII * radius_m).max(others_m).clamp(REACH_M[0], REACH_M[1]);
+    Bounds { min: at - Vector::repeat(reach), max: at + Vector::repeat(reach) }
 }
 
 fn outlined(scene: &Scene, id: HitId) -> bool {

@@ -39,6 +39,8 @@ pub(crate) fn picture(scene: &Scene, view: &View, engine: &Engine) -> Result<Pic
     let (width, height) = (view.size_px.0 as f32, view.size_px.1 as f32);
     marks(&mut image, &pen, scene, &projection, u, true);
     let title = pen.cut(&scene.title, 27.0 * u, width - 56.0 * u);
+    let wide = pen.width(&title, 27.0 * u);
+    rect(&mut image, [18.0 * u, 16.0 * u], [wide + 16.0 * u, 36.0 * u], 0xFFFFFF, 0.6);
     pen.write(
         &mut image,
         [26.0 * u, 34.0 * u],
@@ -49,7 +51,8 @@ pub(crate) fn picture(scene: &Scene, view: &View, engine: &Engine) -> Result<Pic
     let faint = Ink { size: 18.0 * u, rgb: FAINT, halo: 2.0 * u };
     pen.write(&mut image, [26.0 * u, 60.0 * u], Anchor::Left, faint, &view.camera.name());
     furniture(&mut image, &pen, &projection, u);
-    legend::draw(&mut image, &pen, scene, [width - legend as f32, 84.0 * u], height - 190.0 * u, u);
+    let at = [width - legend as f32, 84.0 * u];
+    legend::draw(&mut image, &pen, (scene, &shot.seen), at, height - 190.0 * u, u);
     drawn_by(&mut image, &pen, engine, u);
     Ok(Picture { rgba: image, drawn_by: engine.drawn_by(), views: vec![((0, 0), projection)] })
 }
@@ -68,7 +71,7 @@ pub(crate) fn drawn_by(image: &mut RgbaImage, pen: &Pen, engine: &Engine, u: f32
         image,
         [w - 20.0 * u, h - 18.0 * u],
         Anchor::Right,
-        Ink { size, rgb: FAINT, halo: 0.0 },
+        Ink { size, rgb: FAINT, halo: 2.0 * u },
         &text,
     );
 }
@@ -127,6 +130,7 @@ fn triad(image: &mut RgbaImage, pen: &Pen, view: &Projection, at: At, u: f32) {
     let mut order: Vec<(Vector, (u32, &str))> =
         [Vector::x(), Vector::y(), Vector::z()].into_iter().zip(AXES).collect();
     order.sort_by(|a, b| b.0.dot(&view.forward).total_cmp(&a.0.dot(&view.forward)));
+    let mut letters: Vec<At> = Vec::new();
     for (axis, (rgb, name)) in order {
         let d = [axis.dot(&view.right) as f32, -axis.dot(&view.up) as f32];
         let seen = d[0].hypot(d[1]);
@@ -147,7 +151,14 @@ fn triad(image: &mut RgbaImage, pen: &Pen, view: &Projection, at: At, u: f32) {
             [along(head, 0.0), along(length - u, 4.2 * u), along(length - u, -4.2 * u)],
             rgb,
         );
-        pen.write(image, along(head + 10.0 * u / seen, 0.0), Anchor::Centre, ink, name);
+        let mut letter = along(head + 10.0 * u / seen, 0.0);
+        // two axes that point the same way on the screen
+        let near = |a: &At| (a[0] - letter[0]).hypot(a[1] - letter[1]) < 13.0 * u;
+        if letters.iter().any(near) {
+            letter[1] += 15.0 * u;
+        }
+        letters.push(letter);
+        pen.write(image, letter, Anchor::Centre, ink, name);
     }
 }
 

@@ -11,6 +11,7 @@ use crate::{Engine, Picture, RenderError};
 use image::{Rgba, RgbaImage, imageops};
 use sim::pose::Vector;
 use sim::scene::{Bounds, Row, Scene};
+use std::collections::BTreeSet;
 
 /// More would be too small to see.
 const MOST_SCENES: usize = 6;
@@ -84,7 +85,7 @@ pub(crate) fn compose(
     let whole = scenes.iter().filter_map(Scene::part).flat_map(|b| [b.min, b.max]);
     let bounds = Bounds::of(whole);
     let side_deg = scenes.last().map_or(0.0, |scene| best_side(scene, false));
-    let mut views = Vec::new();
+    let (mut views, mut seen) = (Vec::new(), BTreeSet::new());
     if let (Some(bounds), Ok(count @ 1..)) = (bounds, u32::try_from(scenes.len())) {
         let (places, camera) = largest(area, count, side_deg, bounds, u);
         for (scene, place) in scenes.iter().zip(&places.each) {
@@ -96,6 +97,7 @@ pub(crate) fn compose(
             };
             let shot = shoot(scene, &view, places.margins, engine)?;
             let mut image = shot.image;
+            seen.extend(shot.seen);
             overlay::marks(&mut image, &pen, scene, &shot.projection, u, true);
             overlay::furniture(&mut image, &pen, &shot.projection, u);
             caption(&mut image, &pen, &scene.title, row.stamp.as_deref(), u);
@@ -106,9 +108,8 @@ pub(crate) fn compose(
         }
     }
     let at = [(area[0] + area[2] + gap) as f32, head as f32 + 12.0 * u];
-    // the one with the most to name
-    if let Some(named) = scenes.iter().max_by_key(|scene| scene.bodies.len()) {
-        let end = legend::draw(&mut page, &pen, named, at, area[3] as f32 * 0.5, u);
+    if let Some(named) = scenes.last() {
+        let end = legend::draw(&mut page, &pen, (named, &seen), at, area[3] as f32 * 0.5, u);
         legend::notes(&mut page, &pen, &row.notes, [at[0], end + 20.0 * u], u);
     }
     overlay::drawn_by(&mut page, &pen, engine, u);

@@ -5,7 +5,7 @@ mod light;
 
 use crate::layer::{FLOOR, Layer, NOTHING, Sample, Things, outline, thing};
 use crate::paint::{HIGHLIGHT, PLANNED, Palette, Rgb, bytes, hex, mix, scaled, toned};
-use crate::view::{Fit, Margins, Projection, View};
+use crate::view::{Camera, Fit, Margins, Projection, View};
 use crate::{Engine, RenderError};
 use image::{Rgba, RgbaImage};
 use light::{Light, occlusion};
@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use sim::pose::{Point, Vector};
 use sim::scene::solid::{HitId, solids};
 use sim::scene::{BedShape, BodyKind, Bounds, Scene};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Samples along each edge of a pixel.
 pub(crate) const FINE: u32 = 2;
@@ -32,7 +33,22 @@ const SKY: (u32, u32) = (0xFAFBFC, 0xE6EAEF);
 pub(crate) struct Shot {
     pub(crate) image: RgbaImage,
     pub(crate) projection: Projection,
+    pub(crate) seen: BTreeSet<Seen>,
 }
+
+/// What a legend tells of a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Seen {
+    /// A body of a kind, or the bed.
+    Kind(BodyKind),
+    /// The way of strands that are still to come.
+    ToCome,
+    /// Something outlined.
+    Concerned,
+}
+
+/// Samples of a thing from which on it is worth a line of the legend, as a share of all.
+const SEEN_SHARE: f64 = 2e-4;
 
 /// Draws a view, leaving `margins` free of what it is fitted to.
 pub(crate) fn shoot(
@@ -56,8 +72,13 @@ pub(crate) fn shoot(
     };
     let thin_m = 0.5 * THINNEST_PX / projection.px_per_m;
     let glass = |id: HitId| glass_of(scene, view, id).is_some();
+    // from above the arm covers the part, be it of glass
+    let above = |id: HitId| {
+        let HitId::Body(i) = id else { return false };
+        view.ghost_arm && view.camera == Camera::Top && is_ghost(scene, i)
+    };
     let solid = Things::new(scene, engine, thin_m, |id| !glass(id));
-    let clear = Things::new(scene, engine, thin_m, glass);
+    let clear = Things::new(scene, engine, thin_m, |id| glass(id) && !above(id));
     let fine = projection.finer(FINE);
     let mut front = solid.capture(engine, &fine)?;
     let pane = match clear.solids.capsules.is_empty() && clear.solids.triangles.is_empty() {
@@ -81,7 +102,7 @@ pub(crate) fn shoot(
     let palette = Palette::new(scene);
     let shader = Shader { scene, view, fine, palette, light, floor };
     let layers = Layers { front: &front, pane: pane.as_ref(), planned: planned.as_ref() };
-    Ok(Shot { image: shader.image(&layers), projection })
+    Ok(Shot { image: shader.image(&layers), projection, seen: layers.seen(scene) })
 }
 
 fn widened(b: Bounds, part: f64) -> Bounds {
@@ -157,6 +178,35 @@ struct Layers<'a> {
     pane: Option<&'a Layer>,
     /// Strands still to come.
     planned: Option<&'a Layer>,
+}
+
+impl Layers<'_> {
+    fn seen(&self, scene: &Scene) -> BTreeSet<Seen> {
+        let mut many: BTreeMap<u32, usize> = BTreeMap::new();
+        let mut seen = BTreeSet::new();
+        for layer in [Some(self.front), self.pane].into_iter().flatten() {
+            layer.samples.iter().for_each(|it| *many.entry(it.id).or_default() += 1);
+        }
+        let least = SEEN_SHARE * self.front.samples.len() as f64;
+        for (id, _) in many.into_iter().filter(|(_, n)| *n as f64 >= least) {
+            let (kind, concerned) = match thing(id) {
+                Some(HitId::Bed) => (Some(BodyKind::Bed), false),
+                Some(HitId::Body(i)) => {
+                    let body = scene.bodies.get(i);
+                    (body.map(|body| body.kind), body.is_some_and(|body| body.highlighted))
+                }
+                Some(HitId::Strand(i)) => {
+                    (None, scene.strands.get(i).is_some_and(|s| s.highlighted))
+                }
+                None => (None, false),
+            };
+            seen.extend(kind.map(Seen::Kind));
+            seen.extend(concerned.then_some(Seen::Concerned));
+        }
+        let to_come = |layer: &Layer| layer.samples.iter().any(|it| thing(it.id).is_some());
+        seen.extend(self.planned.filter(|layer| to_come(layer)).map(|_| Seen::ToCome));
+        seen
+    }
 }
 
 struct Shader<'a> {
@@ -312,12 +362,29 @@ impl Shader<'_> {
         let step = if highlighted { 3 } else { 1 };
         let rim = [(-step, 0), (step, 0), (0, -step), (0, step)].into_iter().any(|(dx, dy)| {
             let there = layer.at(x + dx, y + dy);
-            there.id != here.id && there.depth_m > here.depth_m
+            there.id != here.id && there.depth_m > here.depth_m + self.seam_m(here.id, there.id)
         });
         match (rim, highlighted) {
             (false, _) => rgb,
             (true, true) => hex(HIGHLIGHT),
             (true, false) => scaled(rgb, 0.38),
+        }
+    }
+
+    /// Two pieces of one strand that follow each other in other colours have no rim between them, but where one passes
+    /// behind the other by more than its radius.
+    fn seam_m(&self, a: u32, b: u32) -> f32 {
+        let (Some(HitId::Strand(a)), Some(HitId::Strand(b))) = (thing(a), thing(b)) else {
+            return 0.0;
+        };
+        let pieces = [a.min(b), a.max(b)].map(|i| self.scene.strands.get(i));
+        match pieces {
+            [Some(first), Some(second)]
+                if a.abs_diff(b) == 1 && first.points.last() == second.points.first() =>
+            {
+                first.radius_m as f32
+            }
+            _ => 0.0,
         }
     }
 

@@ -11,6 +11,7 @@ use image::{Rgba, RgbaImage, imageops};
 use sim::scene::cast::Caster;
 use sim::scene::solid::{HitId, solids};
 use sim::scene::{BodyKind, Scene};
+use std::collections::BTreeSet;
 
 /// Sides to look from, the usual one first; another is taken only if it shows clearly more of the part.
 const SIDES_DEG: [f64; 4] = [-50.0, 40.0, -140.0, 130.0];
@@ -41,7 +42,7 @@ pub(crate) fn compose(
     let ink = Ink { size: 29.0 * u, rgb: INK, halo: 0.0 };
     let title = pen.cut(&scene.title, ink.size, (width - 2 * gap) as f32);
     pen.write(&mut page, [gap as f32, head as f32 * 0.5], Anchor::Left, ink, &title);
-    let mut views = Vec::new();
+    let (mut views, mut seen) = (Vec::new(), BTreeSet::new());
     for (place, fit, ghost_arm, name) in
         [(main, Fit::Cell, false, "cell"), (inset, Fit::Part, true, "part, arm as glass")]
     {
@@ -53,6 +54,7 @@ pub(crate) fn compose(
         let margins = Margins { left: around, top: f64::from(52.0 * u), right: around, bottom };
         let shot = shoot(scene, &view, margins, engine)?;
         let mut image = shot.image;
+        seen.extend(shot.seen);
         if !ghost_arm {
             frame_part(&mut image, scene, &shot.projection, u);
         }
@@ -66,7 +68,8 @@ pub(crate) fn compose(
         views.push(((place[0], place[1]), shot.projection));
     }
     let x = (inset[0] + inset[2] + gap) as f32;
-    legend::draw(&mut page, &pen, scene, [x, head as f32 + 12.0 * u], tall as f32 - 24.0 * u, u);
+    let at = [x, head as f32 + 12.0 * u];
+    legend::draw(&mut page, &pen, (scene, &seen), at, tall as f32 - 24.0 * u, u);
     overlay::drawn_by(&mut page, &pen, engine, u);
     rect(&mut page, [0.0, 0.0], [width as f32, 4.0 * u], INK, 1.0);
     Ok(Picture { rgba: page, drawn_by: engine.drawn_by(), views })

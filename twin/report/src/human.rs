@@ -1,5 +1,6 @@
 //! The report for a terminal.
 
+use crate::formats::shared::worst_first;
 use crate::frame::{LoadCase, YieldCriterion};
 use crate::line::{allowed_words, one_line};
 use crate::parts::{Finding, Report, Severity, Verdict};
@@ -7,7 +8,7 @@ use crate::quantity::{Unit, clock, counted, digits, found};
 use crate::results::{Range, Strand};
 use crate::screen::{Paint, Screen};
 
-/// Errors told, and warnings told; the rest is in report.json.
+/// Errors told, and warnings told, the worst of each code first; the rest is in report.json.
 const FINDINGS_MAX: usize = 20;
 
 /// The report as text: verdict, findings, worst values, totals. At most `width` columns where words allow.
@@ -53,8 +54,14 @@ fn verdict(report: &Report, screen: &mut Screen) {
 }
 
 fn findings(report: &Report, severity: Severity, screen: &mut Screen) {
-    let all: Vec<&Finding> =
-        report.findings.iter().filter(|finding| finding.severity == severity).collect();
+    let order = worst_first(report).into_iter().map(|at| &report.findings[at]);
+    let (mut all, mut more): (Vec<&Finding>, Vec<&Finding>) = (Vec::new(), Vec::new());
+    for finding in order.filter(|finding| finding.severity == severity) {
+        // the worst of each code says more than twenty of one
+        let is_known = all.iter().any(|known| known.code == finding.code);
+        if is_known { more.push(finding) } else { all.push(finding) }
+    }
+    all.append(&mut more);
     let word = severity.word();
     for finding in all.iter().take(FINDINGS_MAX) {
         screen.line("");
@@ -62,7 +69,8 @@ fn findings(report: &Report, severity: Severity, screen: &mut Screen) {
     }
     if let Some(more @ 1..) = all.len().checked_sub(FINDINGS_MAX) {
         screen.line("");
-        screen.line(&format!("… and {} in report.json", counted(more, &format!("more {word}"))));
+        let more = counted(more, &format!("more {word}"));
+        screen.line(&format!("… and {more} in report.html and report.json"));
     }
 }
 

@@ -64,8 +64,8 @@ fn many_findings_are_cut_short_by_severity() {
     let text = human(&report, false, 80);
     assert_eq!(text.matches("error C201").count(), 20);
     assert_eq!(text.matches("warning R102").count(), 20);
-    assert!(text.contains("… and 3 more errors in report.json"));
-    assert!(text.contains("… and 1 more warning in report.json"));
+    assert!(text.contains("… and 3 more errors in report.html and report.json"));
+    assert!(text.contains("… and 1 more warning in report.html and report.json"));
 }
 
 #[test]

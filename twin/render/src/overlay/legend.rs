@@ -2,32 +2,34 @@
 
 use crate::canvas::{At, blend, border, line, rect, triangle};
 use crate::overlay::round_below;
-use crate::paint::{FAINT, INK, OVER, UNDER, bytes, kind, ramp, severity};
+use crate::paint::{FAINT, HIGHLIGHT, INK, OVER, PLANNED, UNDER, bytes, kind, ramp, severity};
+use crate::shade::Seen;
 use crate::text::{Anchor, Ink, Pen};
 use image::RgbaImage;
-use sim::scene::{BodyKind, ColourScale, MarkSeverity, Scene};
+use sim::scene::{ColourScale, MarkSeverity, Scene};
+use std::collections::BTreeSet;
 
 /// Width of the legend for a picture 800 px high, px.
 pub(crate) const WIDTH: f32 = 178.0;
 const BAR: f32 = 20.0;
 const LINE: f32 = 25.0;
 
-/// Writes the legend from `at` downwards, no longer than `room`; returns where it ends.
+/// Writes the legend of a scene and what is seen of it from `at` downwards, no longer than `room`; returns where it ends.
 pub(crate) fn draw(
     image: &mut RgbaImage,
     pen: &Pen,
-    scene: &Scene,
+    (scene, seen): (&Scene, &BTreeSet<Seen>),
     at: At,
     room: f32,
     u: f32,
 ) -> f32 {
-    let key_height = LINE * u * kinds(scene).len() as f32;
+    let key_height = LINE * u * seen.len() as f32;
     let mut y = at[1];
     if let Some(scale) = &scene.colour {
         let length = (room - key_height - 100.0 * u).clamp(90.0 * u, 300.0 * u);
         y = bar(image, pen, scene, scale, at, length, u) + 22.0 * u;
     }
-    for (rgb, name) in kinds(scene) {
+    for (rgb, name) in seen.iter().map(told) {
         rect(image, [at[0], y], [15.0 * u, 15.0 * u], rgb, 1.0);
         border(image, [at[0], y], [15.0 * u, 15.0 * u], FAINT, u);
         let ink = Ink { size: 18.0 * u, rgb: INK, halo: 2.0 * u };
@@ -50,13 +52,13 @@ pub(crate) fn notes(image: &mut RgbaImage, pen: &Pen, notes: &[String], at: At, 
     }
 }
 
-/// Kinds of body in the scene, each once.
-fn kinds(scene: &Scene) -> Vec<(u32, &'static str)> {
-    let mut found: Vec<BodyKind> = scene.bodies.iter().map(|b| b.kind).collect();
-    found.extend(scene.bed.iter().map(|_| BodyKind::Bed));
-    found.sort();
-    found.dedup();
-    found.into_iter().map(kind).collect()
+/// Colour and word.
+fn told(seen: &Seen) -> (u32, &'static str) {
+    match seen {
+        Seen::Kind(of) => kind(*of),
+        Seen::ToCome => (PLANNED, "still to come"),
+        Seen::Concerned => (HIGHLIGHT, "concerned"),
+    }
 }
 
 /// The bar with title, ticks, limit and what lies beyond the ends; returns where it ends.

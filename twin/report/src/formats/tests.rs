@@ -196,8 +196,8 @@ fn the_summary_of_a_small_report() {
     | smallest clearance | 0.31 mm |
     | largest sag behind the nozzle | 0.42 mm |
     | largest sag once set | 0.020 mm |
-    | largest displacement by weight | 0.12 mm |
-    | the same staged | 0.080 mm |
+    | largest displacement by weight, one-shot | 0.12 mm |
+    | largest displacement by weight, staged | 0.080 mm |
     | strength used in members | 2.00 % |
     | strength used at nodes | 5.00 % |
     | least buckling factor | 45.0 |

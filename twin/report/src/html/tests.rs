@@ -80,7 +80,7 @@ fn a_page_has_all_its_parts_and_fetches_nothing() {
     assert!(page.contains(&format!("content=\"{POLICY}\"")));
     assert_eq!(page.matches("data:image/png;base64,").count(), 4);
     assert_eq!(page.matches("data-plot=").count(), 8, "six joints in one");
-    assert!(page.contains("NOT FEASIBLE"));
+    assert!(page.contains("INFEASIBLE"));
     assert!(
         page.contains(
             "Decided by <a href=\"#finding-1\">C201</a> nozzle too near printed strands: 0.31 mm"

@@ -13,7 +13,7 @@ use crate::quantity::{against, counted, digits};
 pub(super) fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Feasible => "FEASIBLE",
-        Verdict::Infeasible => "NOT FEASIBLE",
+        Verdict::Infeasible => "INFEASIBLE",
     }
 }
 

@@ -46,6 +46,4 @@ pub use sweep::RESOLUTION_M;
 pub(crate) use sweep::{Asked, Covered};
 pub(crate) use touch::Touch;
 pub(crate) use track::Track;
-#[cfg(test)]
-pub(crate) use zone::Piece;
-pub(crate) use zone::outside;
+pub(crate) use zone::{Piece, outside};

@@ -16,7 +16,7 @@
 use std::collections::BTreeMap;
 
 use crate::cell::Job;
-use crate::clearance::outside;
+use crate::clearance::{Piece, outside};
 use crate::deposit::{Deposit, Segment, closest};
 use crate::finding::{Check, Code, Findings, Phase, Site, Words};
 use crate::interval::Interval;
@@ -74,7 +74,7 @@ pub(super) fn check(job: &Job, motion: &Motion, deposit: &Deposit, findings: &mu
 
 /// Where the orifice is deepest in each earlier strand, and in this one's own earlier part.
 fn through(job: &Job, deposit: &Deposit, order: usize) -> Vec<Deepest> {
-    let strand = &deposit.strands[order];
+    let (strand, zone_m) = (&deposit.strands[order], job.limits.touch_zone_m);
     let mut deepest: BTreeMap<usize, Deepest> = BTreeMap::new();
     let mut near = Vec::new();
     let mut pieces = Vec::new();
@@ -85,21 +85,20 @@ fn through(job: &Job, deposit: &Deposit, order: usize) -> Vec<Deepest> {
         deposit.near(low, high, &mut near);
         for &index in &near {
             let earlier = &deposit.segments[index as usize];
-            if !is_earlier(earlier, order, strand.at_m[k - 1] - 2.0 * job.limits.touch_zone_m) {
-                continue;
-            }
             let ends = joints(deposit, [order, earlier.order]);
-            outside(path, &ends, job.limits.touch_zone_m, &mut pieces);
-            for piece in &pieces {
-                let [s, t] = closest(piece, &earlier.ends);
-                let point = piece[0] + (piece[1] - piece[0]) * s;
-                let other = earlier.ends[0] + (earlier.ends[1] - earlier.ends[0]) * t;
-                let share = (earlier.radius_m - (point - other).norm()) / earlier.radius_m;
-                let at_m = strand.at_m[k - 1] + (point - path[0]).norm();
-                let known = deepest.get(&earlier.order).map_or(0.0, |known| known.share);
-                if share > known {
-                    let here = Deepest { earlier: earlier.order, share, at_m, point };
-                    deepest.insert(earlier.order, here);
+            for (path, bead) in there(path, strand.at_m[k - 1], order, earlier, zone_m) {
+                outside(path, &ends, zone_m, &mut pieces);
+                for piece in &pieces {
+                    let [s, t] = closest(piece, &bead);
+                    let point = piece[0] + (piece[1] - piece[0]) * s;
+                    let other = bead[0] + (bead[1] - bead[0]) * t;
+                    let share = (earlier.radius_m - (point - other).norm()) / earlier.radius_m;
+                    let at_m = strand.at_m[k - 1] + (point - strand.as_planned[k - 1]).norm();
+                    let known = deepest.get(&earlier.order).map_or(0.0, |known| known.share);
+                    if share > known {
+                        let here = Deepest { earlier: earlier.order, share, at_m, point };
+                        deepest.insert(earlier.order, here);
+                    }
                 }
             }
         }
@@ -107,10 +106,42 @@ fn through(job: &Job, deposit: &Deposit, order: usize) -> Vec<Deepest> {
     deepest.into_values().collect()
 }
 
-/// Whether a bead is there when the strand of this order is laid; its own beads count from
-/// `behind_m` backwards, so that a corner is no crossing.
-fn is_earlier(bead: &Segment, order: usize, behind_m: f64) -> bool {
-    bead.order < order || (bead.order == order && bead.at_m[1] <= behind_m)
+/// Most pieces that a segment's path is cut into.
+const PIECES_MAX: f64 = 1000.0;
+
+/// A piece of the orifice's path, with the part of a bead that is there by then.
+///
+/// All of an earlier strand. Of its own, what lies two zones behind the orifice or more, so that a corner is no crossing: the
+/// path, which begins at arc length `from_m`, is cut into pieces as long as a zone, and the bead into what is so far behind
+/// where each of them begins.
+fn there(
+    path: Piece,
+    from_m: f64,
+    order: usize,
+    bead: &Segment,
+    zone_m: f64,
+) -> Vec<(Piece, Piece)> {
+    if bead.order != order {
+        return if bead.order < order { vec![(path, bead.ends)] } else { Vec::new() };
+    }
+    let length_m = (path[1] - path[0]).norm();
+    let [begins_m, ends_m] = bead.at_m;
+    if ends_m <= from_m - 2.0 * zone_m {
+        return vec![(path, bead.ends)];
+    }
+    if begins_m >= from_m + length_m - 2.0 * zone_m {
+        return Vec::new();
+    }
+    let count = (length_m / zone_m).ceil().clamp(1.0, PIECES_MAX);
+    let on = |ends: &Piece, share: f64| ends[0] + (ends[1] - ends[0]) * share;
+    let pieces = (0..count as usize).filter_map(|k| {
+        let [first, last] = [k, k + 1].map(|k| k as f64 / count);
+        let behind_m = from_m + length_m * first - 2.0 * zone_m;
+        let share = ((behind_m - begins_m) / (ends_m - begins_m)).min(1.0);
+        let part = [bead.ends[0], on(&bead.ends, share)];
+        (share > 0.0).then(|| ([on(&path, first), on(&path, last)], part))
+    });
+    pieces.collect()
 }
 
 /// The ends of two strands.

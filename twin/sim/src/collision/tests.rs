@@ -168,7 +168,13 @@ fn ends_may_be_joined_and_a_strand_may_not_cross_itself() {
     let ring = strand("ring", &ring, ", \"on\": \"bed\"");
     let eight = [[0.0, 0.0, 1.0], [40.0, 40.0, 1.0], [40.0, 0.0, 1.0], [0.0, 40.0, 1.0]];
     let eight = strand("eight", &eight, ", \"on\": \"bed\"");
-    for (strands, n) in [([a.as_str(), on_it.as_str()].join(","), 0), (ring, 0), (eight, 1)] {
+    // one line there and back, and one that comes back beside itself
+    let back = [[-40.0, 0.0, 1.0], [40.0, 0.0, 1.0], [-40.0, 0.0, 1.0]];
+    let back = strand("back", &back, ", \"on\": \"bed\"");
+    let beside = [[-40.0, 0.0, 1.0], [40.0, 0.0, 1.0], [40.0, 3.0, 1.0], [-40.0, 3.0, 1.0]];
+    let beside = strand("beside", &beside, ", \"on\": \"bed\"");
+    let joined = [a.as_str(), on_it.as_str()].join(",");
+    for (strands, n) in [(joined, 0), (ring, 0), (eight, 1), (back, 1), (beside, 0)] {
         let found = looked_at(&strands, true);
         let told = found.iter().filter(|finding| finding.code == Code::C208);
         assert_eq!(told.count(), n, "{strands}: {found:?}");

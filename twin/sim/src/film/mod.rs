@@ -5,6 +5,7 @@
 //! with the time at which every point is laid. A [`Player`] says where the movers are at any time. Nothing here judges.
 
 mod ageing;
+mod borne;
 mod player;
 mod quantity;
 mod scene;
@@ -21,7 +22,8 @@ pub use strands::FilmStrand;
 pub use traces::{Trace, TraceOf, traces};
 
 use crate::cell::{Job, Mode};
-use crate::finding::{self, Phase, Severity};
+use crate::finding::{self, Bound, Phase, Severity};
+use crate::interval::Interval;
 use crate::pose::{Point, Pose};
 use crate::preflight::Preflight;
 use crate::scene::{BedShape, BodyKind, MarkSeverity};
@@ -117,6 +119,10 @@ pub struct FilmFinding {
     pub time_s: Option<f64>,
     /// Where, part axes.
     pub at: Option<Point>,
+    /// Where that which should be there is instead, part axes.
+    pub found: Option<Point>,
+    /// How far past its limit, as a share of it; what must not happen at all is past it by more than any other.
+    pub excess: f64,
     /// The strand, by printing order.
     pub strand: Option<usize>,
     /// The bodies concerned, by name.
@@ -183,15 +189,21 @@ impl Film {
         })
     }
 
-    /// Findings that can be shown, by their places in the list: one of each code before a second of any, which says more
-    /// than six of the first.
+    /// Findings that can be shown, by their places in the list, the worst first, errors before warnings; the worst of each
+    /// code before a second of any, which says more than six of one.
     pub fn one_of_each_code_first(
         &self,
         can_be_shown: impl Fn(&FilmFinding) -> bool,
     ) -> impl Iterator<Item = usize> {
         let mut codes: Vec<&str> = Vec::new();
-        let shown = (0..self.findings.len()).filter(|&index| can_be_shown(&self.findings[index]));
-        let (first, more): (Vec<usize>, Vec<usize>) = shown.partition(|&index| {
+        let all = 0..self.findings.len();
+        let mut shown: Vec<usize> = all.filter(|&at| can_be_shown(&self.findings[at])).collect();
+        let of = |at: usize| &self.findings[at];
+        shown.sort_by(|&a, &b| {
+            let by_severity = of(b).severity.cmp(&of(a).severity);
+            by_severity.then(of(b).excess.total_cmp(&of(a).excess)).then(a.cmp(&b))
+        });
+        let (first, more): (Vec<usize>, Vec<usize>) = shown.into_iter().partition(|&index| {
             let code = self.findings[index].code;
             let is_new = !codes.contains(&code);
             codes.extend(is_new.then_some(code));
@@ -308,6 +320,8 @@ fn film_finding(
         },
         time_s,
         at,
+        found: site.found,
+        excess: excess(finding),
         strand: order,
         bodies: site.bodies.clone(),
         words: words(finding),
@@ -315,8 +329,26 @@ fn film_finding(
     }
 }
 
-/// Value against limit, on a screen's units.
+fn excess(finding: &finding::Finding) -> f64 {
+    let Interval { nominal, low, high } = finding.measured;
+    let past = |value: f64| match finding.code.bound() {
+        Bound::Upper => value - finding.limit,
+        Bound::Lower => finding.limit - value,
+        Bound::Forbidden => f64::INFINITY,
+    };
+    let past = match finding.severity {
+        Severity::Error => past(nominal),
+        Severity::Warning => past(low).max(past(high)),
+    };
+    let share = past / finding.limit.abs();
+    if share.is_nan() { 0.0 } else { share }
+}
+
+/// Value against limit, on a screen's units; what must not happen in its own words.
 fn words(finding: &finding::Finding) -> String {
+    if finding.code.bound() == Bound::Forbidden {
+        return finding.code.title().to_owned();
+    }
     let (factor, unit) = match finding.unit {
         "m" => (1e3, " mm"),
         "rad" => (180.0 / std::f64::consts::PI, "°"),

@@ -20,9 +20,9 @@ pub enum Quantity {
     Cure,
     /// Diameter of the bead as drawn, m.
     BeadWidth,
-    /// Displacement of the frame by its weight once all is printed, staged, m.
+    /// Displacement by the frame's weight once all is printed, staged, m.
     Displacement,
-    /// Share of strength used at the worst place of the frame when the strand is new.
+    /// Largest share of its strength that a member used while the print grew.
     Utilisation,
     /// Least clearance while it is printed, m.
     Clearance,
@@ -80,7 +80,7 @@ impl Quantity {
             Self::Cure => "degree of cure",
             Self::BeadWidth => "bead as drawn",
             Self::Displacement => "displacement by weight",
-            Self::Utilisation => "strength used, worst of its stage",
+            Self::Utilisation => "strength used at most while it grew",
             Self::Clearance => "least clearance while printed",
             Self::Speed => "speed of the nozzle",
         }

@@ -6,6 +6,8 @@ use crate::scene::{BedShape, Body, Bounds, Mark, MarkSeverity, Scene, StrandShap
 
 /// Findings marked in a picture; more would hide the part.
 const MARKS_MAX: usize = 6;
+/// Radius of the rod from where a thing should be to where it is, against the thinnest strand's.
+const MISS_SHARE: f64 = 0.5;
 /// Radius of the line that stands for a strand not printed yet, against its bead.
 const PLANNED_SHARE: f64 = 0.16;
 /// Neighbouring segments whose values differ by less than this share of the scale are drawn as one.
@@ -43,6 +45,7 @@ impl Film {
                 planned.extend(seen.to_come());
             }
         }
+        strands.extend(finding.and_then(|it| self.miss(it, &world_from_part)));
         let marks = match finding {
             Some(finding) => self.marks_of(finding, frame),
             None if look.marks => self.marks(frame),
@@ -87,7 +90,19 @@ impl Film {
         Some(Bounds { min: bounds.min - skin, max: bounds.max + skin })
     }
 
-    /// The place with its numbers, and the name of an earlier strand where that is one of the two bodies.
+    /// A rod from where something should be to where it is instead.
+    fn miss(&self, finding: &FilmFinding, world_from_part: &Pose) -> Option<StrandShape> {
+        let (at, found) = (finding.at?, finding.found?);
+        let thinnest_m = self.strands.iter().map(|it| it.radius_m).fold(f64::INFINITY, f64::min);
+        Some(StrandShape {
+            points: [at, found].iter().map(|point| world_from_part * point).collect(),
+            radius_m: MISS_SHARE * thinnest_m,
+            value: None,
+            highlighted: true,
+        })
+    }
+
+    /// The place with its numbers, where what should be there is instead, and the name of an earlier strand where that is one of the two bodies.
     fn marks_of(&self, finding: &FilmFinding, frame: &Frame) -> Vec<Mark> {
         let Some(at) = finding.at else { return Vec::new() };
         let world_from_part = frame.world_from_mover[self.part];
@@ -102,7 +117,11 @@ impl Film {
             let (at, label) = (world_from_part * near, strand.id.clone());
             Some(Mark { at, label, severity: MarkSeverity::Note })
         });
-        std::iter::once(place).chain(named).collect()
+        let found = finding.found.map(|found| {
+            let at = world_from_part * found;
+            Mark { at, label: "is here by then".to_owned(), severity: MarkSeverity::Note }
+        });
+        std::iter::once(place).chain(found).chain(named).collect()
     }
 
     /// The worst findings, as far as they are seen by now.

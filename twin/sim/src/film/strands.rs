@@ -1,10 +1,11 @@
 //! Strands with the time at which every point is laid.
 
+use super::borne::Borne;
 use super::{Ageing, Quantity, ageing};
 use crate::deposit::Printed;
 use crate::finding::Phase;
 use crate::motion::Moment;
-use crate::pose::{Point, Vector};
+use crate::pose::Point;
 use crate::preflight::{Preflight, StrandResult};
 
 /// Straight pieces are cut so that speed and bead show along them; all cuts of a film together number at most this.
@@ -39,10 +40,10 @@ pub struct FilmStrand {
     pub sag_m: f64,
     /// Least clearance while it is printed, m; infinite where nothing came nearer than twice the limit.
     pub clearance_m: f64,
-    /// Largest displacement of its nodes by weight in the last stage that was kept, m; NaN: not solved.
-    pub displacement_m: f64,
-    /// Share of strength used at the worst place of the frame when it is new; NaN: not solved.
-    pub utilisation: f64,
+    /// Displacement of each segment by weight in the last stage that was kept, staged, m; NaN: not solved.
+    pub displacement_m: Vec<f64>,
+    /// Largest share of strength that each segment's member used while the print grew; NaN: not solved.
+    pub utilisation: Vec<f64>,
     /// Temperature and cure against age.
     pub ageing: Ageing,
 }
@@ -93,8 +94,8 @@ impl FilmStrand {
             Quantity::Temperature => self.ageing.at(&self.ageing.temperature_k, age_s()?)?,
             Quantity::Cure => self.ageing.at(&self.ageing.cure, age_s()?)?,
             Quantity::BeadWidth => *self.bead_m.get(segment)?,
-            Quantity::Displacement => self.displacement_m,
-            Quantity::Utilisation => self.utilisation,
+            Quantity::Displacement => *self.displacement_m.get(segment)?,
+            Quantity::Utilisation => *self.utilisation.get(segment)?,
             Quantity::Clearance => self.clearance_m,
             Quantity::Speed => *self.speed_m_s.get(segment)?,
         };
@@ -109,12 +110,12 @@ pub(super) fn strands(preflight: &Preflight) -> Vec<FilmStrand> {
     let pieces = (CUTS_MAX / straight.max(1)).clamp(1, PIECES);
     let passes = passes(preflight);
     let clearances = clearances(preflight);
-    let moved = moved(preflight);
-    let used = used(preflight);
+    let borne = Borne::new(preflight);
     let made = printed.iter().zip(&preflight.strands).enumerate();
     made.map(|(order, (printed, result))| {
         let (at_m, points, planned) = cut(printed, pieces);
         let time_s = times(printed, &passes[printed.strand], &at_m);
+        let (displacement_m, utilisation) = borne.along(order, &at_m);
         FilmStrand {
             id: preflight.job().strands[printed.strand].id.clone(),
             strand: printed.strand,
@@ -127,8 +128,8 @@ pub(super) fn strands(preflight: &Preflight) -> Vec<FilmStrand> {
             radius_m: printed.radius_m,
             sag_m: result.outcome.sag_nozzle_m.nominal,
             clearance_m: clearances[printed.strand],
-            displacement_m: moved[order],
-            utilisation: used[printed.strand],
+            displacement_m,
+            utilisation,
             ageing: ageing(preflight.job(), result, COLD_SET_TIMES),
         }
     })
@@ -224,30 +225,4 @@ fn clearances(preflight: &Preflight) -> Vec<f64> {
         }
     }
     least
-}
-
-/// Largest displacement of each strand's nodes in the last stage that was kept, by printing order.
-fn moved(preflight: &Preflight) -> Vec<f64> {
-    let growth = &preflight.growth;
-    let mut most = vec![f64::NAN; preflight.deposit.strands.len()];
-    let Some(stage) = growth.shown.stages.last() else { return most };
-    let members = growth.built.frame.members().iter().zip(&growth.built.member_order);
-    for (member, &order) in members.take(stage.born) {
-        for six in member.ends.iter().filter_map(|&node| stage.staged.get(node)) {
-            most[order] = most[order].max(Vector::new(six[0], six[1], six[2]).norm());
-        }
-    }
-    most
-}
-
-/// Share of strength used when each strand of the job is new.
-fn used(preflight: &Preflight) -> Vec<f64> {
-    let mut most = vec![f64::NAN; preflight.job().strands.len()];
-    for stage in &preflight.growth.stages {
-        if let Some(strand) = stage.strand {
-            let both = [&stage.member, &stage.weld].into_iter().flatten();
-            most[strand] = both.map(|used| used.share.nominal).fold(most[strand], f64::max);
-        }
-    }
-    most
 }

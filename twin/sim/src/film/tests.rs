@@ -3,11 +3,12 @@ use crate::pose::Point;
 use crate::preflight::{Preflight, preflight};
 use crate::test_job;
 
-/// Two legs of a tent on the bed.
+/// Two legs of a tent that the bed holds.
 fn tent(cell: &str) -> Preflight {
+    let held = r#", "start": { "join": "bed" }"#;
     let strands = [
-        test_job::strand("up", &[[0.0, 0.0, 1.0], [30.0, 0.0, 41.0]], ""),
-        test_job::strand("down", &[[60.0, 0.0, 1.0], [30.0, 0.0, 41.0]], ""),
+        test_job::strand("up", &[[0.0, 0.0, 1.0], [30.0, 0.0, 41.0]], held),
+        test_job::strand("down", &[[60.0, 0.0, 1.0], [30.0, 0.0, 41.0]], held),
     ];
     let text = test_job::text(cell, "", &strands.join(","));
     preflight(test_job::job(&text), |_| {}).expect("a small frame")
@@ -86,6 +87,32 @@ fn quantities_have_scales_that_hold_their_values() {
     let hot = film.strands[0].value(0, 0, Quantity::Temperature, film.strands[0].time_s[1]);
     let cold = film.strands[0].value(0, 0, Quantity::Temperature, 1e5);
     assert!(hot > cold, "{hot:?} {cold:?}");
+}
+
+/// The most of all segments is what the worst stage is judged by; where the bed holds nothing moves.
+#[test]
+fn what_the_frame_does_is_told_place_by_place() {
+    let checked = tent("kr6-hot-end");
+    let film = Film::new(&checked);
+    let all = |quantity: Quantity| -> Vec<Vec<f64>> {
+        let of = |(order, strand): (usize, &super::FilmStrand)| {
+            let value = |k| strand.value(order, k, quantity, film.total_s).expect("solved");
+            (0..strand.segments()).map(value).collect()
+        };
+        film.strands.iter().enumerate().map(of).collect()
+    };
+    let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let stages = checked.growth.stages.iter().filter_map(|stage| stage.member);
+    let judged = most(&stages.map(|used| used.share.nominal).collect::<Vec<_>>());
+    let used = all(Quantity::Utilisation);
+    assert!(judged > 0.0);
+    assert_eq!(most(&used.concat()), judged);
+    let moved = all(Quantity::Displacement);
+    let solved = checked.growth.stages.last().and_then(|stage| stage.staged_m).expect("solved");
+    assert!(most(&moved.concat()) >= 0.9 * solved, "{moved:?} {solved}");
+    for strand in &moved {
+        assert!(strand[0] < 0.1 * most(strand), "begins on the bed: {strand:?}");
+    }
 }
 
 #[test]

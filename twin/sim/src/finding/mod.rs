@@ -70,6 +70,8 @@ pub struct Site {
     pub bodies: Vec<String>,
     /// The place in part axes, for pictures.
     pub point: Option<Point>,
+    /// Where that which should be at the place is instead.
+    pub found: Option<Point>,
 }
 
 impl Site {

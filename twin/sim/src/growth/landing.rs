@@ -139,7 +139,12 @@ fn sag(printed: &Printed<'_>, built: &Built, order: usize, end: usize) -> Vector
 }
 
 impl Landing {
-    /// The sum at its highest, m.
+    /// The sum, m.
+    fn miss_m(&self) -> Vector {
+        self.frame_m + self.shrinkage_m + self.sag_m + self.weight_m + self.push_m
+    }
+
+    /// Its length at its highest, m.
     pub(super) fn high_m(&self) -> f64 {
         let push = self.push_length_m;
         self.sum_m + (push.high - push.nominal) + self.accuracy_m
@@ -170,19 +175,22 @@ fn judge(
     landing: &Landing,
     findings: &mut Findings,
 ) {
-    let strands = &printed.deposit.strands;
-    let length_m =
-        strands.iter().find(|p| p.strand == landing.strand).map_or(0.0, |p| p.length_m());
+    let strand = printed.deposit.strands.iter().find(|p| p.strand == landing.strand);
+    let length_m = strand.map_or(0.0, |p| p.length_m());
+    let time_s = strand.map(|p| if landing.at_end { p.done_s } else { p.born_s });
+    // the node as it is built lies where the earlier strand has sagged to
+    let planned = built.frame.nodes()[landing.node] - landing.sag_m;
     let site = Site {
         strand: Some(landing.strand),
         at_m: Some(if landing.at_end { length_m } else { 0.0 }),
         node: Some(landing.node),
-        point: Some(built.frame.nodes()[landing.node]),
+        point: Some(planned),
+        found: Some(planned + landing.miss_m()),
         ..Site::default()
     };
     let limit = job.limits.node_miss_m;
     let measured = landing.measured();
-    let check = Check { code: Code::S401, measured, limit, warn_limit: None, site, time_s: None };
+    let check = Check { code: Code::S401, measured, limit, warn_limit: None, site, time_s };
     findings.check(check, || {
         let mm = |v: f64| v * 1e3;
         let parts = landing.parts();

@@ -4,6 +4,7 @@
 //! The mechanics are in `structure`; here is what a print makes of them.
 
 mod build;
+mod built;
 mod hold;
 mod imperfect;
 mod landing;
@@ -23,7 +24,8 @@ mod tests_contacts;
 mod tests_riding;
 mod welds;
 
-pub use build::{Built, build};
+pub use build::build;
+pub use built::Built;
 pub use landing::Landing;
 pub use loads::{LoadResult, Yield};
 pub use remedy::{Change, Remedy};
@@ -38,7 +40,7 @@ use crate::deposit::{Contact, Deposit};
 use crate::finding::{Code, Findings, Phase, Site, Words};
 use crate::motion::{Leg, Motion};
 use crate::pose::Vector;
-use crate::structure::{Ask, NodeLoad, SolveError, Stage, StageRecord, solve_stages};
+use crate::structure::{Ask, NodeLoad, SolveError, Stage, StageRecord, Trial, solve_stages};
 
 /// What became of the frame.
 #[derive(Debug, Clone)]
@@ -96,7 +98,7 @@ pub fn grow(
         strengths: &strengths,
         welds: &built.welds,
         buckling_every: plan.len().div_ceil(BUCKLING_STAGES),
-        keep: &[],
+        keep: &[plan.len().saturating_sub(1)],
     };
     let unloaded = |stage: &Stage| Stage { trials: Vec::new(), ..stage.clone() };
     let bare: Vec<Stage> = stages.iter().map(unloaded).collect();
@@ -148,7 +150,7 @@ impl Planned {
 
     /// Adds a trial; its place among them.
     fn try_out(&mut self, loads: Vec<NodeLoad>, shows: Option<State>) -> usize {
-        self.stage.trials.push(loads);
+        self.stage.trials.push(Trial { loads, is_bound: shows.is_none() });
         self.states.push(shows);
         self.states.len() - 1
     }

@@ -61,7 +61,8 @@ pub(super) fn remedies(
     let shifted = (landing.weight_m + landing.push_m).norm();
     let mut all = vec![Remedy { change: Change::Shift(lasting), left_m: shifted }];
     let stage = &plan[coming.stage].stage;
-    let loads = &stage.trials[coming.pressed[usize::from(landing.at_end)].map_or(0, |p| p.nominal)];
+    let pressed = coming.pressed[usize::from(landing.at_end)].map_or(0, |p| p.nominal);
+    let loads = &stage.trials[pressed].loads;
     let rest = landing.shrinkage_m + landing.sag_m;
     for order in later(built, coming, landing.node).take(ORDERS_TRIED) {
         let Some(then) = plan.iter().find(|planned| planned.printed == order + 1) else { continue };

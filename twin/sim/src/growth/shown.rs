@@ -9,6 +9,9 @@ use crate::structure::{StageRecord, Support};
 pub struct Shown {
     /// Three at most, in order.
     pub stages: Vec<ShownStage>,
+    /// By member: the largest share of its strength used at a stage, weight, locked-in strain and the nozzle; empty where
+    /// the last stage was not solved.
+    pub used: Vec<f64>,
     /// The first stage with a piece that nothing holds, a mechanism, or a member past its strength.
     pub fails: Option<Fails>,
 }
@@ -106,6 +109,7 @@ pub(super) fn shown(built: &Built, plan: &[Planned], records: &[Record]) -> Show
     };
     Shown {
         stages: chosen.into_iter().map(stage).collect(),
+        used: records.last().map_or_else(Vec::new, |record| record.in_all.peaks.clone()),
         fails: records.iter().enumerate().find_map(|(at, record)| {
             let planned = &plan[at].stage;
             cause(built, &record.in_all).map(|cause| Fails {

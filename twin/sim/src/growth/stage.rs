@@ -238,8 +238,8 @@ fn judge(
             Check { code: Code::S403, measured: used.share, limit, warn_limit: None, site, time_s };
         findings.check(check, || Words {
             message: format!(
-                "strand `{}` is strained to {:.0} % of its strength after {} strands, {}",
-                id(order), used.share.nominal * 100.0, result.printed, used.state.words()
+                "strand `{}` is strained to {:.0} % of its strength after {}, {}",
+                id(order), used.share.nominal * 100.0, strands(result.printed), used.state.words()
             ),
             hint: "brace the frame before more hangs on it, thicken the strand, or let it shrink before its far end is joined"
                 .to_owned(),
@@ -254,8 +254,8 @@ fn judge(
             Check { code: Code::S405, measured: used.share, limit, warn_limit: None, site, time_s };
         findings.check(check, || Words {
             message: format!(
-                "node {} where `{}` holds to the frame is strained to {:.0} % of its strength after {} strands, {}",
-                node, id(order), used.share.nominal * 100.0, result.printed, used.state.words()
+                "node {} where `{}` holds to the frame is strained to {:.0} % of its strength after {}, {}",
+                node, id(order), used.share.nominal * 100.0, strands(result.printed), used.state.words()
             ),
             hint: "press the beads nearer together, dwell at the node, or bring another strand to it first"
                 .to_owned(),
@@ -273,10 +273,18 @@ fn judge(
         let check = Check { code: Code::S404, measured, limit, warn_limit: None, site, time_s };
         findings.check(check, || Words {
             message: format!(
-                "after {} strands the frame buckles at {:.2} times what it carries; `{}` moves most",
-                result.printed, factor, id(order)
+                "after {} the frame buckles at {:.2} times what it carries; `{}` moves most",
+                strands(result.printed),
+                factor,
+                id(order)
             ),
-            hint: "shorten or thicken the strand, or brace its middle before more is hung on it".to_owned(),
+            hint: "shorten or thicken the strand, or brace its middle before more is hung on it"
+                .to_owned(),
         });
     }
+}
+
+/// `1 strand`, `3 strands`.
+fn strands(count: usize) -> String {
+    format!("{count} {}", if count == 1 { "strand" } else { "strands" })
 }

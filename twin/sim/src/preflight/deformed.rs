@@ -2,11 +2,12 @@
 
 use super::Preflight;
 use crate::growth::{Growth, ShownStage};
-use crate::pose::{Point, Pose, Vector};
+use crate::pose::{Pose, Vector};
 use crate::scene::{
     BedShape, Body, BodyKind, Bounds, ColourScale, Mark, MarkSeverity, Row, Scene, StrandShape,
 };
 use crate::shape::Shape;
+use crate::structure::displacement_along;
 
 /// The largest displacement is drawn at most this share of the part's longest edge.
 const DRAWN_SHARE: f64 = 0.05;
@@ -106,8 +107,9 @@ fn between_m(growth: &Growth, stage: &ShownStage) -> f64 {
     let members = growth.built.frame.members().iter().take(stage.born);
     let curve = |ends: [usize; 2]| {
         let (places, moved) = (ends.map(|node| nodes[node]), ends.map(|node| stage.staged[node]));
-        (1..2 * PIECES_OF_MEMBER)
-            .map(move |k| along(places, moved, k as f64 / (2 * PIECES_OF_MEMBER) as f64).norm())
+        (1..2 * PIECES_OF_MEMBER).map(move |k| {
+            displacement_along(places, moved, k as f64 / (2 * PIECES_OF_MEMBER) as f64).norm()
+        })
     };
     members
         .filter(|member| member.density_kg_m3 > 0.0)
@@ -199,11 +201,11 @@ impl Drawing<'_> {
             let moved = member.ends.map(|node| stage.staged[node]);
             let place = |k: usize| {
                 let share = k as f64 / pieces as f64;
-                let u = along(ends, moved, share);
+                let u = displacement_along(ends, moved, share);
                 bed_from_part * (ends[0] + (ends[1] - ends[0]) * share + u * self.factor as f64)
             };
             shapes.extend((0..pieces).map(|k| {
-                let middle = along(ends, moved, (k as f64 + 0.5) / pieces as f64);
+                let middle = displacement_along(ends, moved, (k as f64 + 0.5) / pieces as f64);
                 StrandShape {
                     points: vec![place(k), place(k + 1)],
                     radius_m: member.section.fibre_m.max(self.thinnest_m),
@@ -214,23 +216,6 @@ impl Drawing<'_> {
         }
         shapes
     }
-}
-
-/// Displacement along a member: straight along its axis, across it the cubic of an unloaded beam
-/// with the turns of its ends.
-pub(super) fn along(ends: [Point; 2], moved: [[f64; 6]; 2], share: f64) -> Vector {
-    let axis = ends[1] - ends[0];
-    let x = axis.normalize();
-    let u = moved.map(|six| Vector::new(six[0], six[1], six[2]));
-    let slope = moved.map(|six| Vector::new(six[3], six[4], six[5]).cross(&axis));
-    let s = share;
-    let far = s * s * (3.0 - 2.0 * s);
-    let across = u[0] * (1.0 - far)
-        + u[1] * far
-        + slope[0] * (s * (1.0 - s).powi(2))
-        + slope[1] * (s * s * (s - 1.0));
-    let straight = u[0] * (1.0 - s) + u[1] * s;
-    across + x * (straight - across).dot(&x)
 }
 
 /// Axes as planned of the first strands, as thin lines in bed axes.
@@ -260,7 +245,8 @@ pub(super) fn caption(preflight: &Preflight, stage: usize) -> String {
     let of = preflight.job.strands.len();
     let released = told.released.and_then(|form| preflight.job.forms.get(form));
     let released = released.map_or_else(String::new, |form| format!(", `{}` released", form.id));
-    format!("after {} of {of} strands{released}", told.printed)
+    let strands = if of == 1 { "strand" } else { "strands" };
+    format!("after {} of {of} {strands}{released}", told.printed)
 }
 
 /// Forms that still hold at a stage, in bed axes.

@@ -2,6 +2,7 @@
 
 use super::making::StrandResult;
 use super::rules;
+use super::slower::slow_enough;
 use crate::cell::Job;
 use crate::deposit::Printed;
 use crate::finding::{Check, Code, Findings, Site, Words};
@@ -9,7 +10,7 @@ use crate::interval::Interval;
 use crate::process::history::Corner;
 use crate::process::shrinkage::remedy;
 use crate::process::strand::shortening_at;
-use crate::process::{Ends, Heats, Setting, StrandOutcome};
+use crate::process::{Ends, Heats, Setting};
 
 struct Judge<'a> {
     job: &'a Job,
@@ -26,7 +27,7 @@ pub(super) fn judge(job: &Job, printed: &Printed, result: &StrandResult, finding
         this.hold(Code::P301, outcome.sag_nozzle_m, limits.sag_m, None, findings, |mm| {
             (
                 format!("sags {mm} behind the nozzle before it is set"),
-                slower(job, limits.sag_m, outcome),
+                slower(job, result, limits.sag_m),
             )
         });
         this.hold(Code::P303, outcome.sag_set_m, limits.sag_m, None, findings, |mm| {
@@ -109,17 +110,29 @@ fn wait_or_go_on(job: &Job, result: &StrandResult) -> String {
     }
 }
 
-/// The speed at which the sag behind the nozzle (its high end, if only that is past the limit)
-/// would be at its limit: it grows as v⁴.
-fn slower(job: &Job, limit_m: f64, outcome: &StrandOutcome) -> String {
-    let Interval { nominal, high, .. } = outcome.sag_nozzle_m;
-    let past_m = if nominal > limit_m { nominal } else { high };
-    let ratio = (limit_m / past_m).powf(0.25);
+/// The speed at which the sag behind the nozzle keeps its limit, if there is one.
+fn slower(job: &Job, result: &StrandResult, limit_m: f64) -> String {
     let jet = if job.cell.tool.air_jet.is_some() { "more air" } else { "an air jet" };
-    format!(
-        "print at {:.0} % of this speed or slower (sag goes with its fourth power), or with {jet}",
-        ratio * 100.0
-    )
+    let strand = &job.strands[result.strand];
+    // rounded down: the advice must do
+    let down = |value: f64, step: f64| (value / step).floor() * step;
+    match slow_enough(job, result, limit_m) {
+        None => {
+            format!("shorten the span, thicken the bead or add {jet}: speed alone does not mend it")
+        }
+        Some(share) if strand.profile.is_empty() => {
+            let speed_mm_s = strand.settings.speed_m_s * share * 1e3;
+            let step = 10f64.powf(speed_mm_s.log10().floor() - 2.0);
+            let digits = (-step.log10()).clamp(0.0, 9.0).round() as usize;
+            format!("print at {:.digits$} mm/s or slower, or with {jet}", down(speed_mm_s, step))
+        }
+        Some(share) => {
+            format!(
+                "print at {:.1} % of these speeds or slower, or with {jet}",
+                down(share * 100.0, 0.1)
+            )
+        }
+    }
 }
 
 impl Judge<'_> {
@@ -155,7 +168,9 @@ impl Judge<'_> {
             _ => (length_m / 2.0, self.printed.planned_at(length_m / 2.0)),
         };
         let site = Site::strand(self.result.strand, at_m).at(point);
-        let time_s = Some(self.printed.born_s);
+        let Printed { born_s, done_s, .. } = *self.printed;
+        let share = if length_m > 0.0 { at_m / length_m } else { 1.0 };
+        let time_s = Some(born_s + (done_s - born_s) * share);
         findings.check(
             Check { code, measured: finite(measured), limit, warn_limit, site, time_s },
             || {

@@ -41,6 +41,8 @@ pub struct StrandResult {
     pub touches: usize,
     /// Whether anything holds its start.
     pub start_held: bool,
+    /// From where to where it hangs free, m.
+    pub stretch_m: [f64; 2],
     /// How it was made.
     pub course: Course,
     /// Its beads along its length.
@@ -209,7 +211,19 @@ fn make_one(
     let sagged = rod.replaces(&mut outcome);
     let touches = contacts.len();
     let strand = printed.strand;
-    StrandResult { strand, input, outcome, down, touches, start_held, course, fed, sagged, lit }
+    StrandResult {
+        strand,
+        input,
+        outcome,
+        down,
+        touches,
+        start_held,
+        stretch_m,
+        course,
+        fed,
+        sagged,
+        lit,
+    }
 }
 
 /// The lights as they stand and shine, in the place of the closed form of a ring.
@@ -261,12 +275,12 @@ fn shine(
 }
 
 /// The ageing rod in the place of the closed form.
-struct Rod<'a> {
-    input: &'a StrandInput,
-    course: &'a Course,
-    job: &'a Job,
-    heats: &'a Heats,
-    stretch_m: [f64; 2],
+pub(super) struct Rod<'a> {
+    pub(super) input: &'a StrandInput,
+    pub(super) course: &'a Course,
+    pub(super) job: &'a Job,
+    pub(super) heats: &'a Heats,
+    pub(super) stretch_m: [f64; 2],
 }
 
 /// Share of the bead's diameter from which the rod is asked.
@@ -285,7 +299,7 @@ impl Rod<'_> {
 
     /// Sag A by the rod at all corners, where the closed form's nominal value is past a tenth of the bead, or would be at
     /// the speed of the fastest stretch: it knows the mean speed alone.
-    fn replaces(&self, outcome: &mut StrandOutcome) -> Option<Sagged> {
+    pub(super) fn replaces(&self, outcome: &mut StrandOutcome) -> Option<Sagged> {
         let diameter_m = outcome.hot_diameter_m;
         let faster = self.fastest_m_s() / self.input.speed_m_s;
         if !(outcome.sag_nozzle_m.nominal * faster.powi(4) > ROD_FROM * diameter_m) {

@@ -13,8 +13,11 @@ mod making;
 mod program;
 mod reheating;
 mod rules;
+mod slower;
 #[cfg(test)]
 mod tests_moments;
+#[cfg(test)]
+mod tests_slower;
 mod totals;
 mod tracking;
 

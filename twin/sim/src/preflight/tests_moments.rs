@@ -1,7 +1,8 @@
-use super::deformed::{Unit, along, round_factor};
+use super::deformed::{Unit, round_factor};
 use super::*;
 use crate::pose::{Point, Vector};
 use crate::scene::Scene;
+use crate::structure::displacement_along;
 use crate::test_job::{job, strand, text};
 
 fn checked(strands: &[String]) -> Preflight {
@@ -54,7 +55,7 @@ fn a_member_is_drawn_as_an_unloaded_beam_bends() {
     for share in [0.0, 0.25, 0.5, 0.9, 1.0] {
         let x = from + (to - from) * share;
         let wanted = Vector::new(1e-3 * x, 0.0, down(x));
-        let found = along(ends, moved, share);
+        let found = displacement_along(ends, moved, share);
         assert!((found - wanted).norm() < 1e-15, "{found} {wanted}");
     }
 }

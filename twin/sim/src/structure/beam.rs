@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use super::frame::{Frame, Member};
-use crate::pose::Vector;
+use crate::pose::{Point, Vector};
 
 /// Stiffness of a member; rows and columns are the freedoms of its first, then its second node.
 pub(crate) type Matrix12 = SMatrix<f64, 12, 12>;
@@ -153,4 +153,21 @@ pub(crate) fn turned(local: &Matrix12, axes: &Matrix3<f64>) -> Matrix12 {
         }
     }
     (k + k.transpose()) * 0.5
+}
+
+/// Displacement at a share of a member's length, m, by translations and turns of its ends: straight along its axis, across it
+/// the cubic of an unloaded beam.
+pub(crate) fn displacement_along(ends: [Point; 2], moved: [[f64; 6]; 2], share: f64) -> Vector {
+    let axis = ends[1] - ends[0];
+    let x = axis.normalize();
+    let u = moved.map(|six| Vector::new(six[0], six[1], six[2]));
+    let slope = moved.map(|six| Vector::new(six[3], six[4], six[5]).cross(&axis));
+    let s = share;
+    let far = s * s * (3.0 - 2.0 * s);
+    let across = u[0] * (1.0 - far)
+        + u[1] * far
+        + slope[0] * (s * (1.0 - s).powi(2))
+        + slope[1] * (s * s * (s - 1.0));
+    let straight = u[0] * (1.0 - s) + u[1] * s;
+    across + x * (straight - across).dot(&x)
 }

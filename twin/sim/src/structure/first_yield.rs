@@ -80,12 +80,12 @@ fn most_used(
     (strengths, welds): (&[Strength], &[Weld]),
 ) -> Option<(f64, usize)> {
     let member = match criterion {
-        Criterion::Axial => worst_by(spans, cuts, strengths, |span, cut, strength| {
+        Criterion::Axial => worst_by(spans, cuts, strengths, |_, span, cut, strength| {
             span.axial_utilisation(cut, strength)
         }),
-        Criterion::Fibre => {
-            worst_by(spans, cuts, strengths, |span, cut, strength| span.utilisation(cut, strength))
-        }
+        Criterion::Fibre => worst_by(spans, cuts, strengths, |_, span, cut, strength| {
+            span.utilisation(cut, strength)
+        }),
         Criterion::Node => {
             return worst_weld(welds, spans, cuts).map(|worst| (worst.value, worst.weld));
         }

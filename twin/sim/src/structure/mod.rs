@@ -41,6 +41,8 @@ mod trial;
 mod weld;
 mod yielding;
 
+pub(crate) use beam::displacement_along;
+
 pub use beads::{Bead, BeadsFault, Bundle, bundle, torsion_ceiling_m4};
 pub use buckling::{Buckled, BucklingAsk, BucklingError, Mode, buckling};
 pub use euler::{EULER_FLAG, Slender, slender};
@@ -54,5 +56,5 @@ pub use section::{Elastic, Section};
 pub use solve::{Held, Load, Solution, SolveError, solve};
 pub use stages::{Ask, Stage, StageRecord, StageState, solve_held_stages, solve_stages};
 pub use strength::{Governs, Strength, Utilisation, utilisation};
-pub use trial::TrialState;
+pub use trial::{Trial, TrialState};
 pub use weld::{At, Weld, WeldUse};

@@ -21,7 +21,7 @@ use super::one_sided::Grip;
 use super::solve::{SolveError, check_inputs, fixed_freedoms};
 use super::standing::{Moment, ONE_SHOT, STAGED, Standing};
 use super::strength::{Span, Strength, Utilisation, check_strengths, spans};
-use super::trial::{Capacity, TrialState, trials};
+use super::trial::{Capacity, Trial, TrialState, trials};
 use super::weld::{Weld, WeldUse, check_welds};
 
 /// Residual, relative to the loads, with which a stage is left.
@@ -40,8 +40,8 @@ pub struct Stage {
     pub at_nodes: Vec<NodeLoad>,
     /// Factor on E and G of each born member at this age; empty: 1.
     pub stiffness: Vec<f64>,
-    /// Loads put on the frame as it stands and taken off again, each by itself: what the nozzle does.
-    pub trials: Vec<Vec<NodeLoad>>,
+    /// What the nozzle does, each by itself.
+    pub trials: Vec<Trial>,
     /// Nodes whose displacement is wanted.
     pub watch: Vec<usize>,
 }
@@ -58,7 +58,7 @@ pub struct Ask<'a> {
     /// Buckling of the last stage, of every stage that is a multiple of this, and of every one that Euler's screen flags;
     /// 0: of none.
     pub buckling_every: usize,
-    /// Stages (by index) whose displacements are kept.
+    /// Stages (by index) whose displacements and peaks are kept.
     pub keep: &'a [usize],
 }
 
@@ -76,6 +76,9 @@ pub struct StageRecord {
     pub staged: Option<StageState>,
     /// In the order of the stage's trials.
     pub trials: Vec<TrialState>,
+    /// By member: the largest share of its strength that it used at a stage so far, staged, in the trials that are no bounds
+    /// too; empty unless strengths are given and the stage is kept.
+    pub peaks: Vec<f64>,
     /// Buckling under the staged forces, where it was asked for.
     pub buckling: Option<Result<Buckled, BucklingError>>,
     /// What let go and what rests; `None` where nothing was said of adhesion.
@@ -153,6 +156,7 @@ pub fn solve_held_stages(
         fresh: 0.0,
         last: stages.len().saturating_sub(1),
         mode: None,
+        peaks: Peaks::default(),
     };
     let stages = stages.iter().enumerate();
     Ok(stages.map(|(index, stage)| grip.take(&mut sequence, stage, index)).collect())
@@ -164,7 +168,7 @@ pub(crate) fn check_stages(frame: &Frame, stages: &[Stage]) -> Result<(), SolveE
     for stage in stages {
         check_inputs(frame, &stage.supports, &stage.at_nodes, stage.gravity_m_s2)?;
         for trial in &stage.trials {
-            check_inputs(frame, &[], trial, [0.0; 3])?;
+            check_inputs(frame, &[], &trial.loads, [0.0; 3])?;
         }
         if let Some(&node) = stage.watch.iter().find(|&&node| node >= frame.nodes().len()) {
             return Err(SolveError::BadNode { node });
@@ -216,6 +220,30 @@ pub(super) struct Sequence<'a> {
     last: usize,
     /// How the frame buckled when that was last asked: the next shape is near.
     mode: Option<Mode>,
+    peaks: Peaks,
+}
+
+/// Largest shares of strength by member.
+#[derive(Default)]
+struct Peaks {
+    /// Up to the stage before this one.
+    before: Vec<f64>,
+    /// With this one, as it was last taken.
+    now: Vec<f64>,
+    /// Its index.
+    index: usize,
+}
+
+impl Peaks {
+    /// Those to grow at a stage, which may be taken again: what it came to before is then forgotten.
+    fn at(&mut self, index: usize, members: usize) -> &mut [f64] {
+        if index != self.index {
+            (self.index, self.before) = (index, self.now.clone());
+        }
+        self.now.clone_from(&self.before);
+        self.now.resize(members, 0.0);
+        &mut self.now
+    }
 }
 
 impl Sequence<'_> {
@@ -235,6 +263,7 @@ impl Sequence<'_> {
             one_shot: None,
             staged: None,
             trials: Vec::new(),
+            peaks: Vec::new(),
             buckling: None,
             holding: None,
         };
@@ -254,18 +283,20 @@ impl Sequence<'_> {
         }
         let residuals = self.settle(&moment);
         let kept = self.ask.keep.contains(&index);
-        let capacity = self.capacity();
-        let state =
-            |side: usize| self.standing.state(&moment, side, &capacity, residuals[side], kept);
-        record.one_shot = Some(state(ONE_SHOT));
-        record.staged = self.ask.staged.then(|| state(STAGED));
-        record.trials = trials(&moment, &self.standing, &self.growing, &capacity);
+        let capacity =
+            Capacity { spans: self.spans, strengths: self.ask.strengths, welds: self.ask.welds };
+        let peaks = self.peaks.at(index, self.spans.len());
+        let state = |side: usize, peaks: &mut [f64]| {
+            self.standing.state(&moment, side, &capacity, residuals[side], kept, peaks)
+        };
+        record.one_shot = Some(state(ONE_SHOT, &mut []));
+        record.staged = self.ask.staged.then(|| state(STAGED, &mut *peaks));
+        record.trials = trials(&moment, &self.standing, &self.growing, &capacity, &mut *peaks);
+        if kept {
+            record.peaks = peaks.to_vec();
+        }
         record.buckling = self.buckling(&moment, &wanted, index);
         record
-    }
-
-    fn capacity(&self) -> Capacity<'_> {
-        Capacity { spans: self.spans, strengths: self.ask.strengths, welds: self.ask.welds }
     }
 
     /// Where it is asked for; the shape is kept for the next time.

@@ -224,6 +224,7 @@ impl Standing {
         capacity: &Capacity,
         residual: f64,
         kept: bool,
+        peaks: &mut [f64],
     ) -> StageState {
         let (mut max_translation_m, mut max_node, mut max_rotation_rad) = (0.0, 0, 0.0f64);
         let of_node = |node: usize| -> [f64; 6] {
@@ -238,7 +239,7 @@ impl Standing {
             }
             max_rotation_rad = max_rotation_rad.max(Vector::new(six[3], six[4], six[5]).norm());
         }
-        let (utilisation, weld) = capacity.used(|| self.cuts(moment, side));
+        let (utilisation, weld) = capacity.used(|| self.cuts(moment, side), peaks);
         let held = |&super::Support { node, fixed }: &super::Support| {
             let of = |k: usize| if fixed[k] { -self.gap[6 * node + k][side] } else { 0.0 };
             std::array::from_fn(of)

@@ -245,19 +245,19 @@ pub(crate) fn cuts(
 
 /// The first of the most used members.
 pub(crate) fn worst(spans: &[Span], cuts: &[Cut], strengths: &[Strength]) -> Option<Utilisation> {
-    worst_by(spans, cuts, strengths, |span, cut, strength| span.utilisation(cut, strength))
+    worst_by(spans, cuts, strengths, |_, span, cut, strength| span.utilisation(cut, strength))
 }
 
-/// The same by any law.
+/// The same by any law; members are asked in order, each once.
 pub(crate) fn worst_by(
     spans: &[Span],
     cuts: &[Cut],
     strengths: &[Strength],
-    law: fn(&Span, &Cut, &Strength) -> (f64, f64, Governs),
+    mut law: impl FnMut(usize, &Span, &Cut, &Strength) -> (f64, f64, Governs),
 ) -> Option<Utilisation> {
     let mut worst: Option<Utilisation> = None;
     for (member, ((span, cut), strength)) in spans.iter().zip(cuts).zip(strengths).enumerate() {
-        let (value, station_m, governs) = law(span, cut, strength);
+        let (value, station_m, governs) = law(member, span, cut, strength);
         if worst.is_none_or(|worst| value > worst.value) {
             worst = Some(Utilisation { value, member, station_m, governs });
         }

@@ -5,9 +5,18 @@ use super::frame::{Member, NodeLoad};
 use super::growing::Growing;
 use super::ldl::Pair;
 use super::standing::{Moment, STAGED, Standing};
-use super::strength::{Cut, Span, Strength, Utilisation, worst};
+use super::strength::{Cut, Span, Strength, Utilisation, worst_by};
 use super::weld::{Weld, WeldUse, worst_weld};
 use crate::pose::Vector;
+
+/// Loads put on the frame as it stands and taken off again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trial {
+    /// What is put on.
+    pub loads: Vec<NodeLoad>,
+    /// Whether it only bounds another one: what members use in it is not what they are expected to.
+    pub is_bound: bool,
+}
 
 /// How the frame answers to a trial load, staged.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,16 +41,24 @@ pub(super) struct Capacity<'a> {
 }
 
 impl Capacity<'_> {
-    /// The most used member and weld.
+    /// The most used member and weld; `peaks` grow to what each member uses.
     pub(super) fn used(
         &self,
         cuts: impl FnOnce() -> Vec<Cut>,
+        peaks: &mut [f64],
     ) -> (Option<Utilisation>, Option<WeldUse>) {
         if self.spans.is_empty() {
             return (None, None);
         }
         let cuts = cuts();
-        (worst(self.spans, &cuts, self.strengths), worst_weld(self.welds, self.spans, &cuts))
+        let member = worst_by(self.spans, &cuts, self.strengths, |member, span, cut, strength| {
+            let used = span.utilisation(cut, strength);
+            if let Some(peak) = peaks.get_mut(member) {
+                *peak = peak.max(used.0);
+            }
+            used
+        });
+        (member, worst_weld(self.welds, self.spans, &cuts))
     }
 }
 
@@ -53,22 +70,24 @@ pub(super) fn trials(
     standing: &Standing,
     growing: &Growing,
     capacity: &Capacity,
+    peaks: &mut [f64],
 ) -> Vec<TrialState> {
     let mut states = Vec::with_capacity(moment.stage.trials.len());
     for pair in moment.stage.trials.chunks(2) {
         let mut u: Vec<Pair> = vec![[0.0; 2]; 6 * moment.free.len()];
-        for (side, loads) in pair.iter().enumerate() {
-            for load in loads {
+        for (side, trial) in pair.iter().enumerate() {
+            for load in &trial.loads {
                 for (freedom, value) in load.load.iter().enumerate() {
                     u[6 * load.node + freedom][side] += value;
                 }
             }
         }
         growing.solve(&mut u);
-        let sides = pair.iter().enumerate();
-        states.extend(sides.map(|(side, loads)| {
-            state(moment, standing, capacity, loads, &|freedom| u[freedom][side])
-        }));
+        for (side, trial) in pair.iter().enumerate() {
+            let peaks: &mut [f64] = if trial.is_bound { &mut [] } else { &mut *peaks };
+            let u = |freedom: usize| u[freedom][side];
+            states.push(state(moment, standing, capacity, &trial.loads, &u, peaks));
+        }
     }
     states
 }
@@ -79,6 +98,7 @@ fn state(
     capacity: &Capacity,
     loads: &[NodeLoad],
     u: &dyn Fn(usize) -> f64,
+    peaks: &mut [f64],
 ) -> TrialState {
     let (mut max_translation_m, mut max_node) = (0.0, 0);
     for node in 0..moment.free.len() {
@@ -94,7 +114,7 @@ fn state(
             moment.born().iter().enumerate().map(|(at, member)| first_end(moment, at, member, u));
         lasting.iter().zip(added).map(|(lasting, added)| lasting.plus(&added, 1.0)).collect()
     };
-    let (utilisation, weld) = capacity.used(cuts);
+    let (utilisation, weld) = capacity.used(cuts, peaks);
     let of_node = |node: usize| std::array::from_fn(|freedom| u(6 * node + freedom));
     TrialState {
         displacement: loads.iter().map(|load| (load.node, of_node(load.node))).collect(),

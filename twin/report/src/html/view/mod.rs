@@ -99,7 +99,7 @@ impl View3d {
         let all = Kept::all(film);
         let left = room.saturating_sub(used(&blob, &told));
         // strands are what it is about: bodies take what they leave, yet always something
-        let of_bodies = left.saturating_sub(all.bytes()).max(left * 2 / 5);
+        let of_bodies = left.saturating_sub(all.bytes(film)).max(left * 2 / 5);
         let (bodies, coarse) = bodies::pack(film, of_bodies);
         if coarse > 0 {
             said.push(format!("{coarse} bodies are drawn coarser or not at all"));
@@ -132,20 +132,20 @@ fn bytes_of(budget_bytes: usize) -> usize {
 fn fitting(film: &Film, all: Kept, room: usize, said: &mut Vec<String>) -> Kept {
     // ageing tables come on top of what is counted
     let room = room.saturating_sub(room / 8);
-    if all.bytes() <= room {
+    if all.bytes(film) <= room {
         return all;
     }
     let many = all.segments();
     let mut kept = all;
     for share in [0.02, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, f64::INFINITY] {
         kept = strands::thinner(film, &kept, |strand: &FilmStrand| strand.radius_m * share);
-        if kept.bytes() <= room {
+        if kept.bytes(film) <= room {
             said.push(format!("{many} segments are drawn as {}", kept.segments()));
             return kept;
         }
     }
     let strands = kept.strands.len();
-    let each = kept.bytes().div_ceil(strands.max(1));
+    let each = kept.bytes(film).div_ceil(strands.max(1));
     let fit = room / each.max(1);
     // evenly spread over the job
     let chosen = (0..fit).map(|k| kept.strands[k * strands / fit].clone());

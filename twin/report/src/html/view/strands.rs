@@ -50,15 +50,19 @@ impl Kept {
         self.points() - self.strands.len()
     }
 
-    pub(super) fn bytes(&self) -> usize {
-        self.points() * POINT_BYTES + self.strands.len() * STRAND_BYTES
+    /// Room they take with the values that the film has.
+    pub(super) fn bytes(&self, film: &Film) -> usize {
+        let values =
+            |of: &str| film.painted.iter().filter(|it| source(it.quantity) == of).count() * 2;
+        self.points() * (POINT_BYTES + values("segment"))
+            + self.strands.len() * (STRAND_BYTES + values("strand"))
     }
 }
 
-/// Place, time, way to the planned place, bead and speed.
-const POINT_BYTES: usize = 6 + 2 + 3 + 2 + 2;
-/// Number of points, place in the film, birth, span, radius, way's unit, table of age and five values.
-const STRAND_BYTES: usize = 4 + 4 + 8 + 4 + 4 + 4 + 2 + 10;
+/// Place, time and way to the planned place.
+const POINT_BYTES: usize = 6 + 2 + 3;
+/// Number of points, place in the film, birth, span, radius, way's unit, and table of age.
+const STRAND_BYTES: usize = 4 + 4 + 8 + 4 + 4 + 4 + 2;
 
 /// Place of a value on its scale.
 pub(super) fn level(painted: &Painted, value: Option<f64>) -> u16 {
@@ -160,10 +164,10 @@ pub(super) fn source(quantity: Quantity) -> &'static str {
         Quantity::Order => "order",
         Quantity::Age => "age",
         Quantity::Temperature | Quantity::Cure => "ageing",
-        Quantity::BeadWidth | Quantity::Speed => "segment",
-        Quantity::Sag | Quantity::Displacement | Quantity::Utilisation | Quantity::Clearance => {
-            "strand"
+        Quantity::BeadWidth | Quantity::Speed | Quantity::Displacement | Quantity::Utilisation => {
+            "segment"
         }
+        Quantity::Sag | Quantity::Clearance => "strand",
     }
 }
 

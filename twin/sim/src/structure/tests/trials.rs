@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::structure::{
-    Ask, At, BucklingAsk, Load, NodeLoad, Stage, Strength, Weld, buckling, solve, solve_stages,
-    utilisation,
+    Ask, At, BucklingAsk, Load, NodeLoad, Stage, Strength, Trial, Weld, buckling, solve,
+    solve_stages, utilisation,
 };
 
 const STRENGTH: Strength = Strength { tension_pa: 4e7, compression_pa: 5e7 };
@@ -15,6 +15,10 @@ fn stage(born: usize) -> Stage {
 
 fn push(node: usize, load: [f64; 3]) -> Vec<NodeLoad> {
     vec![NodeLoad { node, load: [load[0], load[1], load[2], 0.0, 0.0, 0.0] }]
+}
+
+fn trial(node: usize, load: [f64; 3]) -> Trial {
+    Trial { loads: push(node, load), is_bound: false }
 }
 
 /// A trial is what one more load does to the frame as it stands, and nothing stays of it.
@@ -37,7 +41,7 @@ fn a_trial_is_one_more_load_and_leaves_no_trace() {
     let tried: Vec<Stage> = plain
         .iter()
         .map(|stage| Stage {
-            trials: loads.iter().map(|load| push(stage.born, *load)).collect(),
+            trials: loads.iter().map(|load| trial(stage.born, *load)).collect(),
             watch: vec![stage.born, 0],
             ..stage.clone()
         })
@@ -71,18 +75,54 @@ fn a_trial_is_one_more_load_and_leaves_no_trace() {
 fn strength_under_a_trial_is_that_of_both_loads() {
     let frame = chain(Vector::new(0.6, 0.0, 0.8), 0.03, 4);
     let mut all = stage(4);
-    all.trials = vec![push(4, [0.4, 0.1, -0.2]), push(2, [0.0, -0.6, 0.0])];
+    all.trials = vec![trial(4, [0.4, 0.1, -0.2]), trial(2, [0.0, -0.6, 0.0])];
     let strengths = [STRENGTH; 4];
     let ask = Ask { staged: true, strengths: &strengths, ..Ask::default() };
     let records = solve_stages(&frame, &[all.clone()], ask).unwrap();
     for (trial, state) in all.trials.iter().zip(&records[0].trials) {
-        let load = Load { gravity_m_s2: DOWN, at_nodes: trial.clone(), ..Load::default() };
+        let load = Load { gravity_m_s2: DOWN, at_nodes: trial.loads.clone(), ..Load::default() };
         let both = solve(&frame, &clamped([0]), &load).unwrap();
         let used = utilisation(&frame, &strengths, &both, DOWN).unwrap().unwrap();
         let found = state.utilisation.unwrap();
         assert_eq!((found.member, found.governs), (used.member, used.governs));
         near(found.value, used.value, 1e-9);
     }
+}
+
+/// Peaks are the most that a member used at any stage so far; a bound leaves none.
+#[test]
+fn peaks_are_what_stages_and_trials_came_to() {
+    let frame = chain(Vector::new(0.6, 0.0, 0.8), 0.03, 4);
+    let bound = Trial { loads: push(2, [5.0, 0.0, 0.0]), is_bound: true };
+    let mut stages: Vec<Stage> = (1..=4).map(stage).collect();
+    stages[1].trials = vec![trial(2, [0.0, -0.6, 0.0]), bound];
+    // lighter at the end: what was used before stays
+    stages[3].gravity_m_s2 = [0.0; 3];
+    let strengths = [STRENGTH; 4];
+    let of = |stages: &[Stage]| {
+        let keep = [stages.len() - 1];
+        let ask = Ask { staged: true, strengths: &strengths, keep: &keep, ..Ask::default() };
+        solve_stages(&frame, stages, ask).unwrap()
+    };
+    let records = of(&stages);
+    assert!(records[2].peaks.is_empty());
+    let peaks = &records[3].peaks;
+    let most = |found: &[Option<crate::structure::Utilisation>]| {
+        found.iter().flatten().map(|used| used.value).fold(0.0, f64::max)
+    };
+    let staged: Vec<_> = records.iter().map(|it| it.staged.as_ref().unwrap().utilisation).collect();
+    let tried = records[1].trials[0].utilisation;
+    let worst = most(&staged).max(most(&[tried]));
+    assert_eq!(peaks.iter().copied().fold(0.0, f64::max), worst);
+    assert!(records[1].trials[1].utilisation.unwrap().value > worst, "the bound is more");
+    assert!(most(&staged[3..]) < worst);
+    // each member: the most of its own over runs that end at each stage without trials, and at the trial
+    let plain: Vec<Stage> =
+        stages.iter().map(|it| Stage { trials: Vec::new(), ..it.clone() }).collect();
+    let without = &of(&plain)[3].peaks;
+    assert!(without.iter().zip(peaks).all(|(less, more)| less <= more));
+    assert_eq!(without[3], peaks[3], "the trial came before it was there");
+    assert!(without[0] < peaks[0]);
 }
 
 /// The factor of a stage is that of the frame as it then is; it falls as a mast grows, and goes with the cube of its height.
@@ -125,11 +165,11 @@ fn stages_buckle_as_the_frame_they_are() {
 fn unusable_trials_are_refused() {
     let frame = chain(Vector::z(), 0.06, 3);
     let refused = |stage: Stage| solve_stages(&frame, &[stage], Ask::default()).is_err();
-    assert!(refused(Stage { trials: vec![push(9, [0.0; 3])], ..stage(3) }));
-    assert!(refused(Stage { trials: vec![push(1, [f64::NAN, 0.0, 0.0])], ..stage(3) }));
+    assert!(refused(Stage { trials: vec![trial(9, [0.0; 3])], ..stage(3) }));
+    assert!(refused(Stage { trials: vec![trial(1, [f64::NAN, 0.0, 0.0])], ..stage(3) }));
     assert!(refused(Stage { watch: vec![4], ..stage(3) }));
     // a node that is not there yet does not move
-    let early = Stage { trials: vec![push(3, [1.0, 0.0, 0.0])], watch: vec![3], ..stage(1) };
+    let early = Stage { trials: vec![trial(3, [1.0, 0.0, 0.0])], watch: vec![3], ..stage(1) };
     let records = solve_stages(&frame, &[early], Ask::default()).unwrap();
     assert_eq!(records[0].trials[0].displacement, [(3, [0.0; 6])]);
 }

@@ -32,8 +32,8 @@ fn strand(order: usize, segments: usize, id: &str) -> FilmStrand {
         speed_m_s: vec![0.01; segments],
         sag_m: 5e-5,
         clearance_m: f64::INFINITY,
-        displacement_m: f64::NAN,
-        utilisation: 0.1,
+        displacement_m: vec![f64::NAN; segments],
+        utilisation: vec![0.1; segments],
         ageing: Ageing {
             age_s: vec![0.0, 1.0 + order as f64],
             temperature_k: vec![500.0, 300.0],
@@ -61,6 +61,8 @@ pub(super) fn film(strands: usize, segments: usize, name: &str) -> Film {
         gone_s: Some(5.0),
     };
     let finding = FilmFinding {
+        found: None,
+        excess: 0.5,
         code: "C201",
         severity: MarkSeverity::Error,
         time_s: Some(1.5),
