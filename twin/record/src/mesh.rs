@@ -2,8 +2,9 @@
 
 use crate::tubes::{TubeLook, capsule};
 use sim::film::FilmBody;
-use sim::pose::{Point, Vector};
-use sim::scene::solid::{Triangle, of_shapes};
+use sim::pose::{Point, Pose, Vector};
+use sim::scene::solid::{self, Triangle};
+use sim::shape::Shape;
 use std::collections::BTreeMap;
 
 /// Round parts of arms and tools.
@@ -60,7 +61,16 @@ impl Mesh {
 
 /// A rigid thing in the axes of its mover; what is not finite is left out.
 pub(crate) fn of_body(body: &FilmBody) -> Mesh {
-    let solids = of_shapes(&body.shapes, &body.mover_from_body);
+    placed(&body.shapes, &body.mover_from_body)
+}
+
+/// Shapes in their own axes; what is not finite is left out.
+pub(crate) fn of_shapes(shapes: &[Shape]) -> Mesh {
+    placed(shapes, &Pose::identity())
+}
+
+fn placed(shapes: &[Shape], pose: &Pose) -> Mesh {
+    let solids = solid::of_shapes(shapes, pose);
     let mut mesh = Mesh::of_triangles(&solids.triangles);
     for round in &solids.capsules {
         mesh.join(&capsule(round.a, round.b, round.radius_m, ROUND));

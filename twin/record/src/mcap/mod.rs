@@ -15,7 +15,7 @@ mod print;
 mod schemas;
 mod story;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 #[cfg(test)]
 mod tests_schemas;
 pub(crate) mod text;

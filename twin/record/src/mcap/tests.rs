@@ -22,7 +22,7 @@ fn record(preflight: &Preflight, film: &Film, profile: Profile) -> (Vec<u8>, Rec
     with_pictures(preflight, film, profile, &[])
 }
 
-pub(super) fn with_pictures(
+pub(crate) fn with_pictures(
     preflight: &Preflight,
     film: &Film,
     profile: Profile,
@@ -67,7 +67,7 @@ pub(super) fn noise(len: usize) -> Vec<u8> {
 type Read = (String, String, u64, Vec<u8>);
 
 /// Every message that can be read, and whether all could.
-pub(super) fn read(bytes: &[u8]) -> (Vec<Read>, bool) {
+pub(crate) fn read(bytes: &[u8]) -> (Vec<Read>, bool) {
     let options = Options::IgnoreEndMagic | Options::ValidateChunkCrcs;
     let Ok(stream) = MessageStream::new_with_options(bytes, options) else {
         return (Vec::new(), false);
@@ -187,7 +187,8 @@ fn hostile_names_stay_inside_their_fields() {
         let (messages, whole) = read(&bytes);
         assert!(whole);
         for (topic, schema, _, data) in messages {
-            assert!(data.len() < 100_000, "{topic}");
+            let copied = data.windows(10_000).any(|run| run.iter().all(|&byte| byte == b'x'));
+            assert!(!copied, "{topic} has a name of any length");
             assert!(!data.contains(&0x1b) || topic != "/state", "{topic}");
             if profile == Profile::Foxglove {
                 fits(&schema, &data, &mut BTreeSet::new())

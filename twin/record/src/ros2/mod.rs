@@ -1,6 +1,7 @@
 //! The story as messages of ROS 2, for `ros2 bag play` and RViz: axes and units of REP 103, frames by name in `world`.
 
 mod cdr;
+mod markers;
 mod schemas;
 #[cfg(test)]
 mod tests;
@@ -8,10 +9,10 @@ mod tests;
 pub(crate) use schemas::schema;
 
 use sim::finding::Severity;
-use sim::pose::{Point, Pose, Vector, is_finite_point};
+use sim::pose::Pose;
 
 use crate::mcap::frames::{NamedFrame, WORLD};
-use crate::mcap::{Due, Encoding, Item, STRAND_COLOUR, Story, Topic, rgb, text};
+use crate::mcap::{Due, Encoding, Item, Story, Topic, text};
 use cdr::Cdr;
 
 type Messages = Vec<(&'static Topic, Vec<u8>)>;
@@ -27,9 +28,8 @@ static PRINT: Topic = topic("/scene/print", "visualization_msgs/msg/MarkerArray"
 static LOG: Topic = topic("/log", "rcl_interfaces/msg/Log", false);
 static ROBOT: Topic = topic("/robot_description", "std_msgs/msg/String", true);
 
-// visualization_msgs/msg/Marker
-const LINE_STRIP: i32 = 4;
-const ADD: i32 = 0;
+static CELL: Topic = topic("/scene/cell", "visualization_msgs/msg/MarkerArray", true);
+static FINDINGS: Topic = topic("/scene/findings", "visualization_msgs/msg/MarkerArray", false);
 
 /// The messages of one item; `at` turns a time of the film into nanoseconds of the recording.
 pub(crate) fn tell(story: &Story<'_>, due: &Due, at: &dyn Fn(f64) -> u64) -> Messages {
@@ -37,7 +37,10 @@ pub(crate) fn tell(story: &Story<'_>, due: &Due, at: &dyn Fn(f64) -> u64) -> Mes
     match due.item {
         Item::Cell => at_first(story, ns),
         Item::Pose => poses(story, due.time_s, ns),
-        Item::Piece(strand, from, to) => vec![(&PRINT, piece(story, ns, strand, from, to))],
+        Item::Piece(strand, from, to) => {
+            vec![(&PRINT, markers::array(&[markers::piece(story, strand, from, to)], ns))]
+        }
+        Item::Gone(_) => vec![(&CELL, markers::array(&markers::cell(story, due.time_s), ns))],
         Item::Finding(index) => finding(story, index, ns),
         _ => Vec::new(),
     }
@@ -53,13 +56,14 @@ pub(crate) fn qos(latched: bool) -> String {
     )
 }
 
-/// Frames at rest and the robot's URDF.
+/// Frames at rest, the robot's URDF, and all rigid things, the arm's links too: a URDF may have no shapes.
 fn at_first(story: &Story<'_>, ns: u64) -> Messages {
     let frame = story.player.frame_at(0.0);
     let still: Vec<_> = story.frames.poses(&frame).filter(|(named, _)| named.is_still()).collect();
     let mut all = vec![
         (&TF_STATIC, transforms(&still, ns)),
         (&LOG, log(story, ns, 20, "twin", &story.headline())),
+        (&CELL, markers::array(&markers::cell(story, 0.0), ns)),
     ];
     if let Some(urdf) = story.urdf {
         let mut description = Cdr::new();
@@ -97,38 +101,7 @@ fn transforms(poses: &[(&NamedFrame, Pose)], ns: u64) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// A piece of a strand as `visualization_msgs/msg/MarkerArray`.
-fn piece(story: &Story<'_>, ns: u64, order: usize, from: usize, to: usize) -> Vec<u8> {
-    let points = story.film.strands.get(order).and_then(|strand| strand.points.get(from..=to));
-    let points: Vec<&Point> =
-        points.unwrap_or_default().iter().filter(|p| is_finite_point(p)).collect();
-    let mut cdr = Cdr::new();
-    cdr.count(1);
-    header(&mut cdr, ns, "part");
-    let small = |number: usize| i32::try_from(number).unwrap_or(i32::MAX);
-    cdr.text(&format!("strand/{order}")).i32(small(from)).i32(LINE_STRIP).i32(ADD);
-    place(&mut cdr, &Pose::identity());
-    cdr.f64s(Vector::new(story.bead_m(order, from, to), 0.0, 0.0).as_slice());
-    let [r, g, b] = rgb(STRAND_COLOUR);
-    [r, g, b, 1.0].iter().for_each(|share| {
-        cdr.f32(*share as f32);
-    });
-    // stays for ever, and with the part
-    cdr.i32(0).u32(0).bool(true).count(points.len());
-    points.iter().for_each(|p| {
-        cdr.f64s(p.coords.as_slice());
-    });
-    // one colour for all points, no texture, no words, no mesh
-    cdr.count(0).text("");
-    header(&mut cdr, 0, "");
-    cdr.text("").count(0).count(0);
-    let facts = story.facts(order, from, to);
-    let facts: Vec<String> = facts.iter().map(|(key, value)| format!("{key}: {value}")).collect();
-    cdr.text(&facts.join("\n")).text("").text("").count(0).bool(false);
-    cdr.into_bytes()
-}
-
-/// A finding as a line of the log.
+/// A finding as a line of the log, and where it has a place, as a ball there.
 fn finding(story: &Story<'_>, index: usize, ns: u64) -> Messages {
     let Some((finding, words)) = story.finding(index) else { return Vec::new() };
     let level = match finding.severity {
@@ -136,7 +109,12 @@ fn finding(story: &Story<'_>, index: usize, ns: u64) -> Messages {
         Severity::Error => 40,
     };
     let name = format!("twin.{}", finding.code.as_str());
-    vec![(&LOG, log(story, ns, level, &name, &words))]
+    let marks = markers::finding(story, index);
+    let mut all = vec![(&LOG, log(story, ns, level, &name, &words))];
+    if !marks.is_empty() {
+        all.push((&FINDINGS, markers::array(&marks, ns)));
+    }
+    all
 }
 
 /// `rcl_interfaces/msg/Log`.

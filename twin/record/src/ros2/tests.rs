@@ -1,7 +1,119 @@
 //! CDR against bytes made by hand from the rules of alignment, and the texts of the messages.
 
+use std::collections::BTreeSet;
+
+use sim::film::Film;
+
 use super::cdr::Cdr;
 use super::{qos, schema};
+use crate::Profile;
+use crate::mcap::tests::{read, with_pictures};
+use crate::sample;
+
+/// Reads what [`Cdr`] writes.
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// After the four bytes of the header, from which alignment counts.
+    fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes: &bytes[4..], at: 0 }
+    }
+
+    fn raw(&mut self, size: usize, align: usize) -> &'a [u8] {
+        self.at = self.at.next_multiple_of(align);
+        self.at += size;
+        &self.bytes[self.at - size..self.at]
+    }
+
+    fn u32(&mut self) -> u32 {
+        u32::from_le_bytes(self.raw(4, 4).try_into().expect("four"))
+    }
+
+    fn f64s(&mut self, many: usize) -> Vec<f64> {
+        (0..many).map(|_| f64::from_le_bytes(self.raw(8, 8).try_into().expect("eight"))).collect()
+    }
+
+    fn text(&mut self) -> String {
+        let size = self.u32() as usize;
+        let bytes = self.raw(size, 1);
+        String::from_utf8(bytes[..size - 1].to_vec()).expect("UTF-8")
+    }
+
+    /// Stamp and frame.
+    fn header(&mut self) -> String {
+        self.raw(8, 4);
+        self.text()
+    }
+}
+
+/// What a test asks of a marker.
+struct Seen {
+    frame: String,
+    group: String,
+    kind: u32,
+    points: usize,
+}
+
+/// Field by field as RViz reads it; the last byte is read.
+fn markers(bytes: &[u8]) -> Vec<Seen> {
+    let mut from = Reader::new(bytes);
+    let count = from.u32();
+    let all = (0..count).map(|_| {
+        let (frame, group) = (from.header(), from.text());
+        let [_id, kind, _action] = std::array::from_fn(|_| from.u32());
+        let place = from.f64s(10);
+        assert!(place.iter().all(|x| x.is_finite()) && place[7] >= 0.0, "pose and size");
+        let colour = from.raw(16, 4);
+        assert_eq!(colour[12..], 1f32.to_le_bytes(), "not to be seen through");
+        from.raw(8, 4);
+        assert_eq!(from.raw(1, 1), [1], "locked to its frame");
+        let points = from.u32() as usize;
+        assert!(from.f64s(3 * points).iter().all(|x| x.is_finite()));
+        assert_eq!((from.u32(), from.text().as_str()), (0, ""));
+        assert_eq!(from.header(), "");
+        assert_eq!((from.text().as_str(), from.u32(), from.u32()), ("", 0, 0));
+        from.text();
+        assert_eq!((from.text().as_str(), from.text().as_str(), from.u32()), ("", "", 0));
+        from.raw(1, 1);
+        Seen { frame, group, kind, points }
+    });
+    let all: Vec<Seen> = all.collect();
+    assert_eq!(from.at, from.bytes.len(), "read to the end");
+    all
+}
+
+#[test]
+fn markers_are_whole_and_in_frames_that_are_told() {
+    let checked = sample::tent();
+    let film = Film::new(checked);
+    let (bytes, _) = with_pictures(checked, &film, Profile::Ros2, &[]);
+    let (messages, _) = read(&bytes);
+    let mut frames: BTreeSet<String> = BTreeSet::from(["world".to_owned()]);
+    for (_, _, _, bytes) in messages.iter().filter(|it| it.1 == "tf2_msgs/msg/TFMessage") {
+        let mut from = Reader::new(bytes);
+        for _ in 0..from.u32() {
+            assert_eq!(from.header(), "world");
+            frames.insert(from.text());
+            from.f64s(7);
+        }
+    }
+    let of = |topic: &str| -> Vec<Seen> {
+        messages.iter().filter(|it| it.0 == topic).flat_map(|it| markers(&it.3)).collect()
+    };
+    let (cell, print, found) = (of("/scene/cell"), of("/scene/print"), of("/scene/findings"));
+    assert_eq!(cell.len(), film.bodies.len() + 1, "all bodies and the bed");
+    assert!(cell.iter().all(|it| it.kind == 11 && it.points > 0 && it.points % 3 == 0));
+    assert!(print.iter().all(|it| it.kind == 4 && it.frame == "part" && it.points >= 2));
+    assert!(print.iter().any(|it| it.group == "strand/1"));
+    let placed = film.findings.iter().filter(|it| it.at.is_some()).count();
+    assert_eq!(found.len(), 2 * placed);
+    for marker in cell.iter().chain(&print).chain(&found) {
+        assert!(frames.contains(&marker.frame), "{} of {frames:?}", marker.frame);
+    }
+}
 
 #[test]
 fn numbers_are_aligned_from_the_end_of_the_header() {
