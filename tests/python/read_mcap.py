@@ -12,6 +12,7 @@ import collections
 import hashlib
 import io
 import math
+import struct
 import sys
 
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
@@ -29,7 +30,7 @@ def records(data):
     try:
         for record in StreamReader(io.BytesIO(data), validate_crcs=True).records:
             found.append(record)
-    except (McapError, EOFError, ValueError) as error:
+    except (McapError, EOFError, ValueError, struct.error) as error:
         return found, error
     return found, None
 
