@@ -164,7 +164,7 @@ pub(crate) fn is_ours(name: &str) -> bool {
 fn wanted(checked: &Preflight, film: &Film) -> Vec<(Shows, String, Task)> {
     let player = Player::new(checked);
     let mut all = Vec::new();
-    let scene = finished(film, &player, Some(Quantity::Sag));
+    let scene = finished(film, &player, Some(film.most_telling()));
     let sheet = Task::Sheet { scene: Box::new(scene), size_px: CELL_PX };
     all.push((Shows::Sheet, "the cell, and the part when all is printed".to_owned(), sheet));
     for index in pictured(film) {

@@ -115,6 +115,29 @@ fn what_the_frame_does_is_told_place_by_place() {
     }
 }
 
+/// What alone has a limit is shown; sag where nothing has.
+#[test]
+fn the_picture_of_the_whole_shows_what_decides() {
+    let checked = tent("kr6-hot-end");
+    let mut film = Film::new(&checked);
+    let scale_of = |film: &mut Film, quantity: Quantity, limit: f64| {
+        film.painted.iter_mut().for_each(|painted| {
+            painted.scale.limit = (painted.quantity == quantity).then_some(limit);
+        });
+    };
+    for quantity in [Quantity::Sag, Quantity::Utilisation, Quantity::Displacement] {
+        scale_of(&mut film, quantity, 1e-9);
+        assert_eq!(film.most_telling(), quantity);
+    }
+    let least = film.strands.iter().map(|it| it.clearance_m).fold(f64::INFINITY, f64::min);
+    if least.is_finite() {
+        scale_of(&mut film, Quantity::Clearance, 1e3);
+        assert_eq!(film.most_telling(), Quantity::Clearance);
+    }
+    film.painted.clear();
+    assert_eq!(film.most_telling(), Quantity::Sag);
+}
+
 #[test]
 fn traces_are_in_order_of_time_and_inside_the_program() {
     let checked = tent("kr6-hot-end");
