@@ -181,28 +181,35 @@ struct Layers<'a> {
 }
 
 impl Layers<'_> {
+    /// What is seen of a scene. O(samples).
     fn seen(&self, scene: &Scene) -> BTreeSet<Seen> {
-        let mut many: BTreeMap<u32, usize> = BTreeMap::new();
-        let mut seen = BTreeSet::new();
+        let (mut bed, mut bodies, mut concerned) = (0, vec![0; scene.bodies.len()], 0);
+        let any_strand = scene.strands.iter().any(|strand| strand.highlighted);
         for layer in [Some(self.front), self.pane].into_iter().flatten() {
-            layer.samples.iter().for_each(|it| *many.entry(it.id).or_default() += 1);
+            for sample in &layer.samples {
+                match thing(sample.id) {
+                    Some(HitId::Bed) => bed += 1,
+                    Some(HitId::Body(i)) => bodies[i] += 1,
+                    Some(HitId::Strand(i)) if any_strand && scene.strands[i].highlighted => {
+                        concerned += 1;
+                    }
+                    Some(HitId::Strand(_)) | None => {}
+                }
+            }
+        }
+        let mut kinds: BTreeMap<BodyKind, usize> = BTreeMap::from([(BodyKind::Bed, bed)]);
+        for (body, many) in scene.bodies.iter().zip(bodies) {
+            *kinds.entry(body.kind).or_default() += many;
+            concerned += if body.highlighted { many } else { 0 };
         }
         let least = SEEN_SHARE * self.front.samples.len() as f64;
-        for (id, _) in many.into_iter().filter(|(_, n)| *n as f64 >= least) {
-            let (kind, concerned) = match thing(id) {
-                Some(HitId::Bed) => (Some(BodyKind::Bed), false),
-                Some(HitId::Body(i)) => {
-                    let body = scene.bodies.get(i);
-                    (body.map(|body| body.kind), body.is_some_and(|body| body.highlighted))
-                }
-                Some(HitId::Strand(i)) => {
-                    (None, scene.strands.get(i).is_some_and(|s| s.highlighted))
-                }
-                None => (None, false),
-            };
-            seen.extend(kind.map(Seen::Kind));
-            seen.extend(concerned.then_some(Seen::Concerned));
-        }
+        let enough = |many: usize| many as f64 >= least;
+        let mut seen: BTreeSet<Seen> = kinds
+            .into_iter()
+            .filter(|(_, many)| enough(*many))
+            .map(|it| Seen::Kind(it.0))
+            .collect();
+        seen.extend(enough(concerned).then_some(Seen::Concerned));
         let to_come = |layer: &Layer| layer.samples.iter().any(|it| thing(it.id).is_some());
         seen.extend(self.planned.filter(|layer| to_come(layer)).map(|_| Seen::ToCome));
         seen
