@@ -202,8 +202,8 @@ impl Check {
         for recording in &self.record {
             clock.step("recording");
             bar.set_message("recording");
-            let path = recorder.write(recording)?;
-            written.push(("recorded", path.display().to_string()));
+            recorder.write(recording)?;
+            written.push(("recorded", recording.path().display().to_string()));
         }
         Ok(written)
     }

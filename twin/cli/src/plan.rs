@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use plan::{Bed, Input, Options, Planned, Remark};
+use sim::finding::counted;
 use slam::cell_file::{CellFile, Mode};
 use slam::{Source, Span};
 
@@ -106,8 +107,7 @@ impl Plan {
             Some(path) => {
                 files::write_whole(path, text.as_bytes())?;
                 let n_strands = document.strands.len();
-                let strands = if n_strands == 1 { "strand" } else { "strands" };
-                writeln!(screen.err, "{}: {n_strands} {strands}", path.display())?;
+                writeln!(screen.err, "{}: {}", path.display(), counted(n_strands, "strand"))?;
             }
         }
         Ok(FEASIBLE)

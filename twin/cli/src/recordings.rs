@@ -75,8 +75,8 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    /// Writes a recording, whole or not at all; where it went.
-    pub(crate) fn write<'r>(&self, recording: &'r Recording) -> Result<&'r Path, Refusal> {
+    /// Writes a recording, whole or not at all.
+    pub(crate) fn write(&self, recording: &Recording) -> Result<(), Refusal> {
         let path = &recording.path;
         match recording.kind {
             Kind::Mcap => files::write_by(path, |temporary| self.mcap(temporary)),
@@ -87,8 +87,7 @@ impl Recorder<'_> {
                 files::write_whole(path, &record::glb(self.film, &frame, options))
             }
             Kind::Stl => files::write_whole(path, &record::stl(self.film)),
-        }?;
-        Ok(path)
+        }
     }
 
     fn mcap(&self, path: &Path) -> Result<(), String> {

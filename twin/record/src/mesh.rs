@@ -61,15 +61,11 @@ impl Mesh {
 
 /// A rigid thing in the axes of its mover; what is not finite is left out.
 pub(crate) fn of_body(body: &FilmBody) -> Mesh {
-    placed(&body.shapes, &body.mover_from_body)
+    of_shapes(&body.shapes, &body.mover_from_body)
 }
 
-/// Shapes in their own axes; what is not finite is left out.
-pub(crate) fn of_shapes(shapes: &[Shape]) -> Mesh {
-    placed(shapes, &Pose::identity())
-}
-
-fn placed(shapes: &[Shape], pose: &Pose) -> Mesh {
+/// Shapes in the axes that a pose places theirs in; what is not finite is left out.
+pub(crate) fn of_shapes(shapes: &[Shape], pose: &Pose) -> Mesh {
     let solids = solid::of_shapes(shapes, pose);
     let mut mesh = Mesh::of_triangles(&solids.triangles);
     for round in &solids.capsules {

@@ -28,9 +28,9 @@ pub fn human(report: &Report, color: bool, width: usize) -> String {
 }
 
 fn verdict(report: &Report, screen: &mut Screen) {
-    let (paint, word) = match report.verdict {
-        Verdict::Feasible => (Paint::Green, "FEASIBLE"),
-        Verdict::Infeasible => (Paint::Red, "INFEASIBLE"),
+    let paint = match report.verdict {
+        Verdict::Feasible => Paint::Green,
+        Verdict::Infeasible => Paint::Red,
     };
     let score =
         |score: Option<f64>| score.map_or_else(|| "–".to_owned(), |score| format!("{score:.0}"));
@@ -44,7 +44,7 @@ fn verdict(report: &Report, screen: &mut Screen) {
     ];
     let families: Vec<String> =
         families.iter().map(|(letter, of)| format!("{letter} {}", score(*of))).collect();
-    let word = screen.paint(paint, word);
+    let word = screen.paint(paint, &report.verdict.word().to_uppercase());
     screen.line(&format!(
         "{word}  score {} of 100  ({})  {}",
         score(report.score),

@@ -1,5 +1,6 @@
 //! Numbers as people read them: mm, degrees, percent, h:mm:ss.
 
+pub(crate) use sim::finding::counted;
 use sim::finding::{Bound, Code};
 
 use crate::parts::Finding;
@@ -103,11 +104,6 @@ pub(crate) fn digits(value: f64) -> String {
     // Rounding may leave a zero with a sign.
     let is_zero = text.starts_with('-') && text.chars().all(|c| matches!(c, '-' | '0' | '.'));
     if is_zero { text[1..].to_owned() } else { text }
-}
-
-/// `1 strand`, `3 strands`.
-pub(crate) fn counted(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
 }
 
 /// h:mm:ss, to the nearest second.

@@ -30,7 +30,7 @@ pub(super) fn update(story: &Story<'_>, time_s: f64, ns: u64) -> Vec<u8> {
         let (frame, frame_from_body) = story.frames.of_body(index);
         let named = parts::entity(ns, frame, &id)
             .message(6, parts::pair("name", &super::text::name(&body.name)))
-            .message(6, parts::pair("kind", &format!("{:?}", body.kind).to_lowercase()));
+            .message(6, parts::pair("kind", &super::text::kind(body.kind)));
         entities.push(with_shapes(named, body, &frame_from_body));
     }
     entities.extend(

@@ -15,6 +15,11 @@ pub(crate) fn shown(text: &str, most: usize) -> String {
     out
 }
 
+/// The word for a kind of body.
+pub(crate) fn kind(kind: sim::scene::BodyKind) -> String {
+    format!("{kind:?}").to_lowercase()
+}
+
 /// A name.
 pub(crate) fn name(text: &str) -> String {
     shown(text, NAME_MAX).replace(['\n', '\t'], "\u{FFFD}")

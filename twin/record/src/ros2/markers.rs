@@ -44,9 +44,9 @@ pub(super) fn cell(story: &Story<'_>, time_s: f64) -> Vec<Marker> {
     let mut all: Vec<Marker> = bodies.map(|body| rigid(story, body, time_s)).collect();
     all.extend(story.film.plate().map(|bed| Marker {
         frame: "bed".to_owned(),
-        group: group(bed.kind),
+        group: text::kind(bed.kind),
         id: number(story.film.bodies.len()),
-        points: corners(&mesh::of_shapes(&bed.shapes)),
+        points: corners(&mesh::of_body(&bed)),
         colour: of_kind(bed.kind),
         ..triangles()
     }));
@@ -59,11 +59,11 @@ fn rigid(story: &Story<'_>, index: usize, time_s: f64) -> Marker {
     let (frame, frame_from_body) = story.frames.of_body(index);
     Marker {
         frame: frame.to_owned(),
-        group: group(body.kind),
+        group: text::kind(body.kind),
         id: number(index),
         frame_from_marker: frame_from_body,
         is_gone: body.gone_s.is_some_and(|gone_s| gone_s <= time_s),
-        points: corners(&mesh::of_shapes(&body.shapes)),
+        points: corners(&mesh::of_shapes(&body.shapes, &Pose::identity())),
         colour: of_kind(body.kind),
         words: text::name(&body.name),
         ..triangles()
@@ -121,10 +121,6 @@ fn triangles() -> Marker {
         points: Vec::new(),
         words: String::new(),
     }
-}
-
-fn group(kind: sim::scene::BodyKind) -> String {
-    format!("{kind:?}").to_lowercase()
 }
 
 fn number(index: usize) -> i32 {

@@ -56,7 +56,7 @@ pub(crate) fn heading(names: &[&str]) -> String {
     row(&cells) + &row(&rules)
 }
 
-/// `INFEASIBLE`, with the score.
+/// `infeasible`, with the score.
 pub(super) fn verdict(report: &Report) -> String {
     let word = report.verdict.word();
     match report.score {

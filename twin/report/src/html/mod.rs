@@ -164,7 +164,7 @@ fn head(report: &Report) -> String {
          <meta name=\"color-scheme\" content=\"light dark\"/>\n<title>{} – {}</title>\n<style>\n{style}</style>\n\
          <script>document.documentElement.classList.add(\"js\");</script></head>\n<body>\n",
         escaped(&report.name, LONGEST_ID),
-        verdict::word(report.verdict)
+        report.verdict.word().to_uppercase()
     )
 }
 

@@ -9,14 +9,6 @@ use super::{name, sentence};
 use crate::parts::{Finding, Report, Scores, Severity, Verdict};
 use crate::quantity::{against, counted, digits};
 
-/// The verdict in words.
-pub(super) fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Feasible => "FEASIBLE",
-        Verdict::Infeasible => "INFEASIBLE",
-    }
-}
-
 /// Heading of the page.
 pub(super) fn banner(report: &Report) -> String {
     let (class, mark) = match report.verdict {
@@ -32,7 +24,7 @@ pub(super) fn banner(report: &Report) -> String {
          <div class=\"score\"><p><b>{score}</b> <span>of 100</span></p><p class=\"soft\">score; 50 is the limit</p></div>\
          </section>\n",
         name(&report.name),
-        word(report.verdict),
+        report.verdict.word().to_uppercase(),
         decided(report),
         tally(report)
     )

@@ -91,7 +91,7 @@ pub fn check(
         findings.absorb(found);
         nearest = nearer(nearest, near);
     }
-    plough::check(job, motion, deposit, findings);
+    plough::check(job, deposit, findings);
     (nearest, by_leg_m)
 }
 

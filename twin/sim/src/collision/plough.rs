@@ -20,7 +20,6 @@ use crate::clearance::{Piece, outside};
 use crate::deposit::{Deposit, Segment, closest};
 use crate::finding::{Check, Code, Findings, Phase, Site, Words};
 use crate::interval::Interval;
-use crate::motion::Motion;
 use crate::pose::{Point, Vector};
 
 /// Share of the earlier bead's radius that the orifice may run under its surface: a quarter of the
@@ -36,13 +35,9 @@ struct Deepest {
 }
 
 /// Judges every strand that was printed against those before it.
-pub(super) fn check(job: &Job, motion: &Motion, deposit: &Deposit, findings: &mut Findings) {
-    for (order, printing) in motion.printings.iter().enumerate().take(deposit.strands.len()) {
-        let printed = &deposit.strands[order];
+pub(super) fn check(job: &Job, deposit: &Deposit, findings: &mut Findings) {
+    for (order, printed) in deposit.strands.iter().enumerate() {
         for deepest in through(job, deposit, order) {
-            let length_m = printed.at_m.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-            let part = deepest.at_m / length_m;
-            let time_s = printing.start_s + (printing.end_s - printing.start_s) * part;
             let (id, other) =
                 (&job.strands[printed.strand].id, deposit.strands[deepest.earlier].strand);
             let earlier = job.strands[other].id.as_str();
@@ -56,7 +51,7 @@ pub(super) fn check(job: &Job, motion: &Motion, deposit: &Deposit, findings: &mu
                 limit: DEPTH_SHARE,
                 warn_limit: None,
                 site,
-                time_s: Some(time_s),
+                time_s: Some(printed.even_time_s(deepest.at_m)),
             };
             findings.check(check, || Words {
                 message: format!(

@@ -57,6 +57,13 @@ impl Printed {
     pub fn length_m(&self) -> f64 {
         self.at_m.last().copied().unwrap_or(0.0)
     }
+
+    /// When an arc length is laid if the nozzle goes evenly from birth to end, s.
+    pub fn even_time_s(&self, at_m: f64) -> f64 {
+        let length_m = self.length_m();
+        let share = if length_m > 0.0 { at_m / length_m } else { 0.0 };
+        self.born_s + (self.done_s - self.born_s) * share
+    }
 }
 
 /// A straight piece of a printed strand.

@@ -102,7 +102,8 @@ impl Film {
         })
     }
 
-    /// The place with its numbers, where what should be there is instead, and the name of an earlier strand where that is one of the two bodies.
+    /// The place with its numbers, where what should be there is instead, and the name of an earlier strand where that is one
+    /// of the two bodies.
     fn marks_of(&self, finding: &FilmFinding, frame: &Frame) -> Vec<Mark> {
         let Some(at) = finding.at else { return Vec::new() };
         let world_from_part = frame.world_from_mover[self.part];

@@ -167,11 +167,6 @@ fn passes(preflight: &Preflight) -> Vec<Vec<Moment>> {
 
 /// When the orifice passes arc lengths; evenly from birth to end where it never does.
 fn times(printed: &Printed, pass: &[Moment], at_m: &[f64]) -> Vec<f64> {
-    let length_m = printed.length_m();
-    let evenly = |at_m: f64| {
-        let share = if length_m > 0.0 { at_m / length_m } else { 0.0 };
-        printed.born_s + (printed.done_s - printed.born_s) * share
-    };
     let mut k = 0;
     let mut last_s = f64::NEG_INFINITY;
     let mut at = |at_m: f64| {
@@ -184,7 +179,7 @@ fn times(printed: &Printed, pass: &[Moment], at_m: &[f64]) -> Vec<f64> {
                 from.time_s + (to.time_s - from.time_s) * share
             }
             Some([from, _]) => from.time_s,
-            _ => evenly(at_m),
+            _ => printed.even_time_s(at_m),
         };
         last_s = last_s.max(time_s);
         last_s

@@ -102,6 +102,11 @@ impl Site {
     }
 }
 
+/// `1 strand`, `3 strands`.
+pub fn counted(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}
+
 /// One statement about the job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {

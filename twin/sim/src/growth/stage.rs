@@ -3,7 +3,7 @@
 use super::part::Part;
 use super::{Built, Planned, Printed, Record, Shaken, imperfect};
 use crate::cell::Job;
-use crate::finding::{Check, Code, Findings, Site, Words};
+use crate::finding::{Check, Code, Findings, Site, Words, counted};
 use crate::interval::Interval;
 use crate::structure::{Buckled, Load, StageRecord, StageState};
 
@@ -239,7 +239,7 @@ fn judge(
         findings.check(check, || Words {
             message: format!(
                 "strand `{}` is strained to {:.0} % of its strength after {}, {}",
-                id(order), used.share.nominal * 100.0, strands(result.printed), used.state.words()
+                id(order), used.share.nominal * 100.0, counted(result.printed, "strand"), used.state.words()
             ),
             hint: "brace the frame before more hangs on it, thicken the strand, or let it shrink before its far end is joined"
                 .to_owned(),
@@ -255,7 +255,7 @@ fn judge(
         findings.check(check, || Words {
             message: format!(
                 "node {} where `{}` holds to the frame is strained to {:.0} % of its strength after {}, {}",
-                node, id(order), used.share.nominal * 100.0, strands(result.printed), used.state.words()
+                node, id(order), used.share.nominal * 100.0, counted(result.printed, "strand"), used.state.words()
             ),
             hint: "press the beads nearer together, dwell at the node, or bring another strand to it first"
                 .to_owned(),
@@ -274,7 +274,7 @@ fn judge(
         findings.check(check, || Words {
             message: format!(
                 "after {} the frame buckles at {:.2} times what it carries; `{}` moves most",
-                strands(result.printed),
+                counted(result.printed, "strand"),
                 factor,
                 id(order)
             ),
@@ -282,9 +282,4 @@ fn judge(
                 .to_owned(),
         });
     }
-}
-
-/// `1 strand`, `3 strands`.
-fn strands(count: usize) -> String {
-    format!("{count} {}", if count == 1 { "strand" } else { "strands" })
 }

@@ -1,6 +1,7 @@
 //! The picture of the frame as it sags while it grows: three stages, displacements enlarged.
 
 use super::Preflight;
+use crate::finding::counted;
 use crate::growth::{Growth, ShownStage};
 use crate::pose::{Pose, Vector};
 use crate::scene::{
@@ -245,8 +246,7 @@ pub(super) fn caption(preflight: &Preflight, stage: usize) -> String {
     let of = preflight.job.strands.len();
     let released = told.released.and_then(|form| preflight.job.forms.get(form));
     let released = released.map_or_else(String::new, |form| format!(", `{}` released", form.id));
-    let strands = if of == 1 { "strand" } else { "strands" };
-    format!("after {} of {of} {strands}{released}", told.printed)
+    format!("after {} of {}{released}", told.printed, counted(of, "strand"))
 }
 
 /// Forms that still hold at a stage, in bed axes.

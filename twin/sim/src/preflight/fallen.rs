@@ -3,6 +3,7 @@
 use super::Preflight;
 use super::deformed::{Unit, bed, caption, forms, standing};
 use crate::aftermath::{Bit, Break, Collapse, Failing, Ground, Mesh, collapse};
+use crate::finding::counted;
 use crate::growth::{Cause, Fails};
 use crate::pose::{Point, Pose, Vector};
 use crate::scene::{Bounds, ColourScale, Mark, MarkSeverity, Row, Scene, StrandShape};
@@ -31,7 +32,7 @@ pub fn fallen(preflight: &Preflight) -> Option<Row> {
         scenes,
         notes: vec![
             why(preflight, fails),
-            format!("{n_pieces} piece{} held by nothing", if n_pieces == 1 { "" } else { "s" }),
+            format!("{} held by nothing", counted(n_pieces, "piece")),
             "grey: what stays".to_owned(),
             "rigid pieces, no scale factor: nothing bends or sticks here, and where they come to lie is one of many places"
                 .to_owned(),

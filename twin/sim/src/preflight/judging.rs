@@ -157,7 +157,7 @@ impl Judge<'_> {
         findings: &mut Findings,
         words: impl FnOnce(String) -> (String, String),
     ) {
-        let length_m = self.printed.at_m[self.printed.at_m.len() - 1];
+        let length_m = self.printed.length_m();
         let (at_m, point) = match code {
             Code::P305 if self.result.lit.is_some() => {
                 let least = self.result.lit.as_ref().and_then(crate::process::lit::Lit::least);
@@ -168,9 +168,7 @@ impl Judge<'_> {
             _ => (length_m / 2.0, self.printed.planned_at(length_m / 2.0)),
         };
         let site = Site::strand(self.result.strand, at_m).at(point);
-        let Printed { born_s, done_s, .. } = *self.printed;
-        let share = if length_m > 0.0 { at_m / length_m } else { 1.0 };
-        let time_s = Some(born_s + (done_s - born_s) * share);
+        let time_s = Some(self.printed.even_time_s(at_m));
         findings.check(
             Check { code, measured: finite(measured), limit, warn_limit, site, time_s },
             || {

@@ -2,7 +2,8 @@
 
 use super::making::{Rod, StrandResult};
 use crate::cell::{Flow, Job};
-use crate::process::{self, Course, Heats, StrandInput};
+use crate::interval::Interval;
+use crate::process::{self, Heats, StrandInput};
 
 /// Speeds that are tried.
 const TRIES: usize = 5;
@@ -18,7 +19,7 @@ const LEAST_SHARE: f64 = 0.05;
 /// strand much longer than its soft stretch at a fixed set time; where stretching holds or the span is short it is less.
 pub(super) fn slow_enough(job: &Job, result: &StrandResult, limit_m: f64) -> Option<f64> {
     let by_nominal = result.outcome.sag_nozzle_m.nominal > limit_m;
-    let pick = |sag: crate::interval::Interval| if by_nominal { sag.nominal } else { sag.high };
+    let pick = |sag: Interval| if by_nominal { sag.nominal } else { sag.high };
     let now_m = pick(result.outcome.sag_nozzle_m);
     let mut power = 4.0;
     for _ in 0..TRIES {
@@ -39,7 +40,7 @@ pub(super) fn slow_enough(job: &Job, result: &StrandResult, limit_m: f64) -> Opt
 }
 
 /// The sag of the same strand at a share of its speed, m; flow goes along where the job asks for a diameter.
-fn sag_at(job: &Job, result: &StrandResult, share: f64) -> crate::interval::Interval {
+fn sag_at(job: &Job, result: &StrandResult, share: f64) -> Interval {
     let flow = match job.strands[result.strand].settings.flow {
         Flow::Diameter(_) => share,
         Flow::Rate(_) => 1.0,
@@ -49,9 +50,7 @@ fn sag_at(job: &Job, result: &StrandResult, share: f64) -> crate::interval::Inte
         flow_m3_s: result.input.flow_m3_s * flow,
         ..result.input
     };
-    let mut stations = result.course.stations.clone();
-    stations.iter_mut().for_each(|station| station.time_s /= share);
-    let course = Course { stations, ..result.course.clone() };
+    let course = result.course.clone().slowed(share);
     let heats = Heats::new(&input, &job.material);
     let mut outcome = process::simulate_with(&input, &job.material, &heats);
     let rod =
